@@ -26,8 +26,3 @@ pub use react::{
     BadHandSettings, FingerSample, FingerState, FrictionBelief, HandCommand, HandController, HandLoad,
     HandSettings, HandState, LearntFriction, SlipFactor,
 };
-
-/// T.
-pub static TUNE: [core::sync::atomic::AtomicU64; 8] = [const { core::sync::atomic::AtomicU64::new(0) }; 8];
-/// T.
-pub fn tune(i: usize) -> f64 { f64::from_bits(TUNE[i].load(core::sync::atomic::Ordering::Relaxed)) }

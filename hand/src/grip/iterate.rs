@@ -97,10 +97,10 @@ pub(crate) struct Iterate<T: Real, const N: usize, const ROWS: usize> {
 impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
     pub(crate) fn middle() -> Self {
         Self {
-            blocks: Each::all({ let mut m = Interior::middle(); m.y *= T::literal(crate::tune(3)); for r in &mut m.rows { r.slack *= T::literal(crate::tune(3)); r.price *= T::literal(crate::tune(4)); } m.z *= T::literal(crate::tune(4)); m }),
+            blocks: Each::all(Interior::middle()),
             twist: Vector6::zeros(),
             tau: T::one(),
-            kappa: T::literal(crate::tune(3)*crate::tune(4)),
+            kappa: T::one(),
         }
     }
 }
@@ -118,7 +118,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
 
     /// Takes an iterate with `τ = 1` farther inside, the farther the more the problem has moved since.
     pub(crate) fn lift(&mut self, moved: T) {
-        let up = (moved * T::literal(crate::tune(6))).min(T::literal(0.5));
+        let up = (moved * T::literal(0.2)).min(T::literal(0.5));
         for inner in self.blocks.iter_mut() {
             inner.y.x += up;
             inner.z.x += up;

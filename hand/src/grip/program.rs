@@ -186,7 +186,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         midway: &mut Option<Iterate<T, N, ROWS>>,
     ) -> (Ending, u32) {
         let nearly_enough = (stop.tolerance * T::literal(32.0)).min(T::literal(2e-3)).max(stop.tolerance);
-        let close = T::literal(crate::tune(7)).max(stop.tolerance);
+        let close = T::literal(1e-3).max(stop.tolerance);
         // The best that is nearly there: rounding may stop progress just before the end.
         let mut nearly: Option<(Iterate<T, N, ROWS>, T)> = None;
         let mut missing = self.missing(at);
@@ -194,6 +194,10 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         let mut steps = 0;
         *midway = None;
         loop {
+            // What a step carries on of the residuals loses what rounding takes: what may end it is looked at anew.
+            if missing.is_within(nearly_enough, at.tau) || missing.cost < T::zero() {
+                missing = self.missing(at);
+            }
             if let Some(ending) = self.ending(at, &missing, stop) {
                 if midway.is_none() {
                     *midway = Some(*at);

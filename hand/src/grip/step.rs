@@ -61,7 +61,7 @@ impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {
         });
         let cholesky = Cholesky::new(&sum);
         let twist = cholesky.solve(&right);
-        let mut pivot = at.kappa / at.tau;
+        let mut pivot = at.kappa / at.tau + cholesky.of_shift(&twist);
         scaled.iter_mut().flatten().for_each(|scaled| pivot += scaled.solve_tau(&twist));
         Self { program, missing, scaled, cholesky, at: (at.tau, at.kappa), twist, pivot }
     }
