@@ -11,7 +11,6 @@ pub(crate) struct Cholesky<T: Real> {
     lower: [[T; 6]; 6],
     /// Reciprocals of the diagonal.
     inverse: [T; 6],
-    shift: T,
 }
 
 impl<T: Real> Cholesky<T> {
@@ -19,7 +18,7 @@ impl<T: Real> Cholesky<T> {
     #[inline(never)]
     pub(crate) fn new(matrix: &Matrix6<T>) -> Self {
         let shift = matrix.trace() * T::EPSILON * T::literal(4.0) + T::LEAST_NORMAL;
-        let mut new = Self { lower: matrix.data.0, inverse: [T::zero(); 6], shift };
+        let mut new = Self { lower: matrix.data.0, inverse: [T::zero(); 6] };
         // Each with its number known to the compiler: as a loop it would take three times as long.
         new.eliminate::<0>(shift);
         new.eliminate::<1>(shift);
@@ -33,7 +32,7 @@ impl<T: Real> Cholesky<T> {
     /// Finishes a column, and takes what it explains off those behind it.
     #[inline(always)]
     fn eliminate<const J: usize>(&mut self, shift: T) {
-        let Self { lower, inverse, .. } = self;
+        let Self { lower, inverse } = self;
         let mut column = lower[J];
         // Rounding may take a pivot below what was added.
         let reciprocal = T::one() / (column[J] + shift).max(shift).root();
@@ -46,14 +45,6 @@ impl<T: Real> Cholesky<T> {
             }
         }
         (lower[J], inverse[J]) = (column, reciprocal);
-    }
-
-    /// `δ|x|²`: the share of what was added in `xᵀ(L Lᵀ)x`. Of a solution in directions in which no contact can push, it is
-    /// all there is.
-    #[inline]
-    pub(crate) fn of_shift(&self, x: &Vector6<T>) -> T {
-        // The shift between the factors, so that the square stays in range.
-        x.dot(&(x * self.shift))
     }
 
     #[inline(never)]

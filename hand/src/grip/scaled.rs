@@ -183,11 +183,12 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
         subtract(&self.mapped, &self.of_tau, right);
     }
 
-    /// Knows the twist for one of τ from here on. Returns what the block adds to the pivot of τ, a sum of squares:
-    /// `|W⁻¹dy|² + Σ D dσ²`.
+    /// Knows the twist for one of τ from here on, and takes the wrench of its forces off another. Returns what the block
+    /// adds to the pivot of τ, a sum of squares: `|W⁻¹dy|² + Σ D dσ²`.
     #[inline]
-    pub(crate) fn solve_tau(&mut self, twist: &Vector6<T>) -> T {
+    pub(crate) fn solve_tau(&mut self, twist: &Vector6<T>, left: &mut Vector6<T>) -> T {
         add_pull(&self.mapped, twist, &mut self.of_tau);
+        subtract(&self.mapped, &self.of_tau, left);
         let x = &self.of_tau;
         self.rows.iter().fold(self.unturned(x).norm_squared(), |sum, row| {
             let slack = row.bound - row.normal.dot(x);

@@ -61,8 +61,10 @@ impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {
         });
         let cholesky = Cholesky::new(&sum);
         let twist = cholesky.solve(&right);
-        let mut pivot = at.kappa / at.tau + cholesky.of_shift(&twist);
-        scaled.iter_mut().flatten().for_each(|scaled| pivot += scaled.solve_tau(&twist));
+        let (mut pivot, mut left) = (at.kappa / at.tau, program.wrench);
+        scaled.iter_mut().flatten().for_each(|scaled| pivot += scaled.solve_tau(&twist, &mut left));
+        // What the twist does not solve: nothing but rounding, but all there is where no contact can push.
+        pivot += left.dot(&twist);
         Self { program, missing, scaled, cholesky, at: (at.tau, at.kappa), twist, pivot }
     }
 
