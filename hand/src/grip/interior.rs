@@ -43,6 +43,17 @@ impl<T: Real, const ROWS: usize> Interior<T, ROWS> {
             && self.rows.iter().all(|row| positive(row.slack) && positive(row.price))
     }
 
+    /// Goes half the way to another.
+    pub(crate) fn go_halfway(&mut self, other: &Self) {
+        let half = T::literal(0.5);
+        self.y = (self.y + other.y) * half;
+        self.z = (self.z + other.z) * half;
+        for (row, other) in self.rows.iter_mut().zip(&other.rows) {
+            row.slack = (row.slack + other.slack) * half;
+            row.price = (row.price + other.price) * half;
+        }
+    }
+
     /// Multiplies all by a factor.
     #[inline]
     pub(crate) fn scale(&mut self, factor: T) {

@@ -116,6 +116,22 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
             && self.blocks.iter().all(Interior::is_inside)
     }
 
+    /// Goes back towards an iterate inside, half the way and half of that, where rounding has had a step lead outside;
+    /// `false` if that does not help.
+    pub(crate) fn return_inside(&mut self, before: &Self) -> bool {
+        let half = T::literal(0.5);
+        for _ in 0..4 {
+            self.blocks.change_with(&before.blocks, |at, before| at.go_halfway(before));
+            self.twist = (self.twist + before.twist) * half;
+            self.tau = (self.tau + before.tau) * half;
+            self.kappa = (self.kappa + before.kappa) * half;
+            if self.is_inside() {
+                return true;
+            }
+        }
+        false
+    }
+
     /// Takes an iterate with `τ = 1` farther inside, the farther the more the problem has moved since.
     pub(crate) fn lift(&mut self, moved: T) {
         let up = (moved * T::literal(0.2)).min(T::literal(0.5));
@@ -185,5 +201,25 @@ mod tests {
             };
             assert!(twisted(-3.0) && !twisted(f64::NAN) && !twisted(f64::INFINITY));
         }
+    }
+
+    #[test]
+    fn a_step_that_led_outside_is_taken_back_as_far_as_need_be() {
+        let before = Iterate::<f64, 2, 1>::middle();
+        let outside = |first: f64| {
+            let mut at = before;
+            at.blocks.fingers[1].z.x = first;
+            at.blocks.fingers[0].rows[0].price = 2.0;
+            (at.tau, at.twist.x) = (3.0, 8.0);
+            at
+        };
+        let mut near = outside(-0.5);
+        assert!(near.return_inside(&before));
+        assert_eq!((near.blocks.fingers[1].z.x, near.blocks.fingers[0].rows[0].price), (0.25, 1.5));
+        assert_eq!((near.tau, near.twist.x), (2.0, 4.0));
+        let mut far = outside(-2.0);
+        assert!(far.return_inside(&before));
+        assert_eq!((far.blocks.fingers[1].z.x, far.tau, far.twist.x), (0.25, 1.5, 2.0));
+        assert!(!outside(-20.0).return_inside(&before) && !outside(f64::NAN).return_inside(&before));
     }
 }

@@ -213,11 +213,18 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
                     nearly = Some((*at, off));
                 }
             }
-            if steps >= stop.steps || !self.step(at, &mut missing, &mut work) || !at.is_inside() {
+            let before = *at;
+            if steps >= stop.steps || !self.step(at, &mut missing, &mut work) {
                 break;
             }
-            self.look(at, &mut missing);
             steps += 1;
+            if at.is_inside() {
+                self.look(at, &mut missing);
+            } else if at.return_inside(&before) {
+                missing = self.missing(at);
+            } else {
+                break;
+            }
         }
         match nearly {
             Some((best, _)) => {

@@ -35,6 +35,10 @@ fn scales<T: Real>(forces: &[f64], sizes: &[f64], tolerance: f64) {
         let grasp = two(true, 0.5, T::literal(half));
         let load = Wrench::on_fingertip(Vector3::z() * T::literal(-newtons), Vector3::zeros());
         let found = LeastGrip::new().solve(&grasp, &none, &load);
+        // The torque of such forces about the other finger may be beyond the range of the type.
+        if !T::literal(newtons * half).is_number() && found == GripOutcome::NotFinite {
+            continue;
+        }
         let GripOutcome::Held(grip) = found else { panic!("{newtons} {half}: {found:?}") };
         for force in &grip.forces {
             let share = (force.normal / T::literal(newtons)).to_f64();
