@@ -462,6 +462,8 @@ typedef struct ft_hand_settings {
     double least_friction;
     // A contact that asks for a greater friction ratio is implausible, and its force is not used.
     double greatest_ratio;
+    // With what rate the factor that slips have taught goes back to one, in 1/s; 0 for never.
+    double recovery;
 } ft_hand_settings;
 
 // What a finger can give. All zero is a finger that can give any force.
@@ -598,7 +600,7 @@ ft_status ft_hand_least_grip(struct ft_hand *hand,
                              struct ft_grip *grip);
 
 // A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
-// and no contact beyond a friction ratio of 3.
+// without recovery, and no contact beyond a friction ratio of 3.
 struct ft_hand_settings ft_hand_settings_defaults(void);
 
 // Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has

@@ -56,6 +56,8 @@ pub struct ft_hand_settings {
     pub least_friction: f64,
     /// A contact that asks for a greater friction ratio is implausible, and its force is not used.
     pub greatest_ratio: f64,
+    /// With what rate the factor that slips have taught goes back to one, in 1/s; 0 for never.
+    pub recovery: f64,
 }
 
 /// What commands rest on.
@@ -91,12 +93,12 @@ pub struct ft_hand_order {
 }
 
 /// A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
-/// and no contact beyond a friction ratio of 3.
+/// without recovery, and no contact beyond a friction ratio of 3.
 #[unsafe(no_mangle)]
 pub extern "C" fn ft_hand_settings_defaults() -> ft_hand_settings {
-    let HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio } =
+    let HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery } =
         HandSettings::default();
-    ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio }
+    ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery }
 }
 
 /// Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has
@@ -122,8 +124,9 @@ pub unsafe extern "C" fn ft_hand_create(
                 *to = from.limits(index)?;
             }
         }
-        let ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio } = given;
-        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio };
+        let ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery } =
+            given;
+        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery };
         let controller = HandController::new(settings, each)?;
         let least = LeastGrip::new();
         hand_out(place, ft_hand { controller, limits: each, least, count, error: ft_error::none() });

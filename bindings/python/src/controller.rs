@@ -24,6 +24,8 @@ use crate::{enums, errors, numbers, value};
 /// least_friction, greatest_ratio : float, optional
 ///     Below what coefficient friction is never taken, and the greatest friction ratio that a contact can have: one that
 ///     asks for more is not believed.
+/// recovery : float, optional
+///     With what rate the factor that slips have taught goes back to one [1/s]; 0 for never.
 /// least, greatest : float, optional
 ///     Normal force of each finger [N].
 ///
@@ -103,7 +105,7 @@ pub(crate) fn told<'py>(py: Python<'py>, sample: &FingerSample<f64>) -> PyResult
 #[pymethods]
 impl PyController {
     #[new]
-    #[pyo3(signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, least=0.3, greatest=None))]
+    #[pyo3(signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, recovery=0.0, least=0.3, greatest=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         safety: f64,
@@ -112,10 +114,11 @@ impl PyController {
         at_slip: f64,
         least_friction: f64,
         greatest_ratio: f64,
+        recovery: f64,
         least: f64,
         greatest: Option<f64>,
     ) -> PyResult<Self> {
-        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio };
+        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery };
         Self::of((settings, least, greatest))
     }
 

@@ -159,7 +159,11 @@ impl<T: Real> LearntFriction<T> {
     /// Measures a slip. Whether it told something.
     fn measure(&mut self) -> bool {
         let Some(estimate) = self.estimator.onset() else { return false };
-        self.learnt = Some(estimate.quantile(self.quantile));
+        let quantile = estimate.quantile(self.quantile);
+        if !(quantile > T::zero()) {
+            return false;
+        }
+        self.learnt = Some(quantile);
         self.factor.forget();
         true
     }

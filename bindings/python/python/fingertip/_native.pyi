@@ -400,6 +400,7 @@ class HandController:
         at_slip: float = 0.8,
         least_friction: float = 0.1,
         greatest_ratio: float = 3.0,
+        recovery: float = 0.0,
         least: float = 0.3,
         greatest: float | None = None,
     ) -> HandController: ...
