@@ -1,9 +1,11 @@
 //! The least grip of five soft fingers under a load that moves: what benchmarks, the count of instructions and the firmware
 //! solve.
 
-use fingertip::hand::{FingerLimits, Grasp, GraspContact, GripOutcome, LeastGrip};
+use fingertip::hand::{FingerLimits, Grasp, GraspContact, GripOutcome, Hand, LeastGrip};
 use fingertip::wrench::{Real, Wrench};
 use nalgebra::Vector3;
+
+use crate::felt::Words;
 
 /// Fingers of the hand.
 pub const FINGERS: usize = 5;
@@ -22,6 +24,22 @@ const TURN: [f64; 2] = [0.999_980_260_856_137, 0.006_283_143_965_559];
 
 /// What a call solves.
 pub type Outcome<T> = GripOutcome<T, FINGERS>;
+
+/// What the object loads the fingers with.
+pub type GripLoad<T> = Wrench<T, Hand>;
+
+impl Words for Outcome<f32> {
+    fn words(&self, mut visit: impl FnMut(u32)) {
+        let Self::Held(grip) = self else { return visit(u32::MAX) };
+        visit(grip.steps);
+        visit(grip.cost.to_bits());
+        for force in &grip.forces {
+            visit(force.normal.to_bits());
+            visit(force.spin.to_bits());
+            force.tangential.vector().iter().for_each(|x| visit(x.to_bits()));
+        }
+    }
+}
 
 /// A grasp, and a load that turns once in a thousand samples, as much as at 1 kHz it turns in a second.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +66,7 @@ impl<T: Real> Grips<T> {
     }
 
     /// The load of the next sample.
-    pub fn next_load(&mut self) -> Wrench<T, fingertip::hand::Hand> {
+    pub fn next_load(&mut self) -> GripLoad<T> {
         let ([x, y], [cos, sin]) = (self.turn, TURN.map(T::literal));
         self.turn = [x * cos - y * sin, x * sin + y * cos];
         let force = Vector3::new(T::literal(0.8) * y, T::literal(0.5) * x, T::literal(-2.9));
@@ -57,13 +75,13 @@ impl<T: Real> Grips<T> {
 
     /// From the solution of the sample before.
     #[inline(always)]
-    pub fn warm(&mut self, load: &Wrench<T, fingertip::hand::Hand>) -> Outcome<T> {
+    pub fn warm(&mut self, load: &GripLoad<T>) -> Outcome<T> {
         self.least.solve(&self.grasp, &self.limits, load)
     }
 
     /// From nothing.
     #[inline(always)]
-    pub fn cold(&mut self, load: &Wrench<T, fingertip::hand::Hand>) -> Outcome<T> {
+    pub fn cold(&mut self, load: &GripLoad<T>) -> Outcome<T> {
         self.least.forget();
         self.least.solve(&self.grasp, &self.limits, load)
     }

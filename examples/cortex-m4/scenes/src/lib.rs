@@ -27,7 +27,7 @@ use fingertip::wrench::{SensorMatrix, Tare, TareAccumulator};
 use nalgebra::{SMatrix, SVector, Vector6};
 
 pub use felt::{Felt, Spread, Words, fold};
-pub use grips::{FINGERS, Grips, Outcome};
+pub use grips::{FINGERS, GripLoad, Grips, Outcome as GripOutcome};
 pub use scene_a::SceneA;
 pub use scene_b::SceneB;
 pub use scene_c::{Estimate, SceneC};
