@@ -31,7 +31,10 @@ impl<T: Real> Cholesky<T> {
 
     /// Finishes a column, and takes what it explains off those behind it.
     #[inline(always)]
-    #[allow(clippy::needless_range_loop, reason = "triangles, of which iterators would check each bound anew")]
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "triangles, of which iterators would check each bound anew"
+    )]
     fn eliminate<const J: usize>(&mut self, shift: T) {
         let Self { lower, inverse } = self;
         let mut column = lower[J];
@@ -49,7 +52,10 @@ impl<T: Real> Cholesky<T> {
     }
 
     #[inline(never)]
-    #[allow(clippy::needless_range_loop, reason = "triangles, of which iterators would check each bound anew")]
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "triangles, of which iterators would check each bound anew"
+    )]
     pub(crate) fn solve(&self, right: &Vector6<T>) -> Vector6<T> {
         let [mut x] = right.data.0;
         for j in 0..6 {
