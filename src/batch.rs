@@ -12,6 +12,40 @@ use crate::columns::Vectorised;
 use crate::{AnyTouch, Fingertip, GripStage, SlipStage, Step};
 
 /// Where the touches are written: one slice per component.
+///
+/// ```
+/// use fingertip::Touches;
+/// use fingertip::prelude::*;
+/// use nalgebra::Matrix6;
+///
+/// // Six gauges that give the components of the wrench themselves.
+/// let sensor = SensorMatrix::new(Matrix6::identity(), Vector6::repeat(1.0))?;
+/// let mut tip = Fingertip::builder()
+///     .solver(GaussianElimination::new(&sensor)?)
+///     .contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?)
+///     .friction(Coulomb::new(0.5)?)
+///     .build();
+///
+/// // Three samples: 2 N on the top of a ball, dragged along x with more and more force.
+/// let (none, drag) = ([0.0; 3], [0.0, 0.5, 1.5]);
+/// let torque = drag.map(|force| 13e-3 * force);
+/// let raw = [&drag[..], &none, &[-2.0; 3], &none, &torque, &none];
+/// let [mut x, mut y, mut z, mut normal, mut fx, mut fy, mut fz, mut margin, mut used] = [[0.0; 3]; 9];
+/// let mut slip = [SlipVerdict::NotPressing; 3];
+/// let touches = Touches {
+///     point: [&mut x, &mut y, &mut z],
+///     normal_force: &mut normal,
+///     tangential_force: [&mut fx, &mut fy, &mut fz],
+///     margin: &mut margin,
+///     utilisation: &mut used,
+///     slip: &mut slip,
+/// };
+/// tip.sense_all(raw, 1e-3, touches);
+/// // Friction holds 0.5 times 2 N.
+/// assert!((used[1] - 0.5_f64).abs() < 1e-12 && (used[2] - 1.5).abs() < 1e-12);
+/// assert!(margin[1] > 0.0 && margin[2] < 0.0);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Touches<'a, T> {
     /// Where the environment touches \[m\]; zero without contact.

@@ -5,6 +5,15 @@ use nalgebra::Vector3;
 use crate::Parameter;
 
 /// What readers are told once: what is measured, and how it is drawn.
+///
+/// ```
+/// use fingertip_bridges::{About, Hub};
+///
+/// let about =
+///     About { source: "ati://192.168.1.1".to_owned(), frame: "thumb".to_owned(), ..About::default() };
+/// // Every bridge of the hub tells its readers.
+/// assert_eq!(Hub::new(about).about().frame, "thumb");
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct About {
     /// Where samples come from, in words.
@@ -28,6 +37,20 @@ pub struct About {
 }
 
 /// A surface as a net of points \[m\]: rows of `columns` points that close to a ring.
+///
+/// ```
+/// use fingertip_bridges::Net;
+/// use nalgebra::Vector3;
+///
+/// // A frustum: a ring of four corners, and a smaller one above it.
+/// let ring = |half: f64, z: f64| {
+///     [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
+///         .map(|(x, y)| Some(Vector3::new(half * x, half * y, z)))
+/// };
+/// let net = Net { points: [ring(0.01, 0.0), ring(0.005, 0.02)].concat(), columns: 4 };
+/// // Two triangles for each of four sides.
+/// assert_eq!(net.triangles().count(), 8);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Net {
     /// Row after row; `None` where there is no surface.

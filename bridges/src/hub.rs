@@ -15,6 +15,16 @@ use crate::{About, Health, Publisher, Sample, Status, Subscription};
 pub(crate) const KEPT: usize = 4096;
 
 /// What can be asked of the sensor.
+///
+/// ```
+/// use fingertip_bridges::{About, Command, Hub};
+///
+/// let hub = Hub::new(About::default());
+/// // A page asks for a new zero, twice; who reads the sensor hears of it once.
+/// hub.ask(Command::Tare);
+/// hub.ask(Command::Tare);
+/// assert_eq!((hub.asked(), hub.asked()), (Some(Command::Tare), None));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
     /// A new zero, of the mean over the next second, in which nothing may touch.
@@ -24,6 +34,19 @@ pub enum Command {
 }
 
 /// Why there is no new zero.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_bridges::{About, Hub, NoZero};
+///
+/// let hub = Hub::new(About::default());
+/// hub.close();
+/// let refused = hub.tare(Duration::from_secs(2)).unwrap_err();
+/// assert_eq!(
+///     (&refused, refused.to_string().as_str()),
+///     (&NoZero::Ended, "no new zero: the stream has ended")
+/// );
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoZero {
@@ -98,6 +121,25 @@ impl Shared {
 }
 
 /// The hub; a clone is the same one.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip::wrench::Wrench;
+/// use fingertip_bridges::{About, Hub, Sample};
+///
+/// let hub = Hub::new(About::default());
+/// // Two readers, each at its own pace.
+/// let (mut quick, mut slow) = (hub.subscribe(), hub.subscribe());
+/// let (mut publisher, mut samples) = (hub.publisher(), Vec::new());
+/// for number in 0..3 {
+///     publisher.publish(Sample::new(f64::from(number) * 1e-3, Wrench::zero(), None));
+///     quick.wait(&mut samples, Duration::from_secs(1));
+/// }
+/// assert_eq!(samples.len(), 3);
+/// samples.clear();
+/// slow.wait(&mut samples, Duration::from_secs(1));
+/// assert_eq!(samples.len(), 3);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Hub(pub(crate) Arc<Shared>);
 

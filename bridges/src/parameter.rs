@@ -1,6 +1,13 @@
 //! What a scene says, as parameters that other tools ask for.
 
 /// A value.
+///
+/// ```
+/// use fingertip_bridges::Value;
+///
+/// let centre = Value::Numbers(vec![0.0, 0.0, 0.02]);
+/// assert!(matches!(centre, Value::Numbers(numbers) if numbers.len() == 3));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Value {

@@ -10,6 +10,17 @@ const TRIES: u32 = 200;
 
 /// Gives samples to a hub. It never waits for a reader: while one copies, samples are kept and given together with
 /// the next one.
+///
+/// ```
+/// use fingertip::wrench::Wrench;
+/// use fingertip_bridges::{About, Health, Hub, Sample};
+///
+/// let hub = Hub::new(About::default());
+/// let mut publisher = hub.publisher();
+/// publisher.tell(|status| status.health = Health::Running);
+/// publisher.publish(Sample::new(0.001, Wrench::zero(), None));
+/// assert_eq!(hub.status().health, Health::Running);
+/// ```
 #[derive(Debug)]
 pub struct Publisher {
     hub: Hub,

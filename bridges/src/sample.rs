@@ -10,6 +10,17 @@ use fingertip::wrench::Wrench;
 use nalgebra::Vector3;
 
 /// One sample.
+///
+/// ```
+/// use fingertip::wrench::Wrench;
+/// use fingertip_bridges::Sample;
+/// use nalgebra::Vector6;
+///
+/// let wrench = Wrench::from_components(&Vector6::new(0.0, 0.0, -2.0, 0.0, 0.0, 0.0));
+/// let sample = Sample::new(0.5, wrench, None);
+/// // Without a scene the load is what the sensor reports, and nothing is known of a contact.
+/// assert_eq!((sample.load(), sample.contact()), (wrench, None));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Counted by the hub, from 0.
@@ -25,6 +36,18 @@ pub struct Sample {
 }
 
 /// What a scene makes of a sample.
+///
+/// ```
+/// use fingertip::wrench::Wrench;
+/// use fingertip_bridges::{Felt, Sample};
+/// use nalgebra::Vector6;
+///
+/// // The scene turns the sensor's convention round.
+/// let reported: Wrench<f64> = Wrench::from_components(&Vector6::new(0.0, 0.0, 2.0, 0.0, 0.0, 0.0));
+/// let load = Wrench::from_components(&-reported.components());
+/// let felt = Felt { status: "misses", load, contact: None, margin: None, slip: None };
+/// assert_eq!(Sample::new(0.5, reported, Some(felt)).load().force().z, -2.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Felt {
     /// Whether there is a contact, or why not, as in `contacts.csv`.
@@ -40,6 +63,28 @@ pub struct Felt {
 }
 
 /// A contact.
+///
+/// ```
+/// use fingertip::wrench::Wrench;
+/// use fingertip_bridges::{Felt, Pressed, Sample};
+/// use nalgebra::Vector3;
+///
+/// // 2 N on the top of a ball of 13 mm.
+/// let (point, force) = (Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.0, 0.0, -2.0));
+/// let pressed = Pressed {
+///     point,
+///     normal: Vector3::z(),
+///     force,
+///     normal_force: 2.0,
+///     tangential_force: Vector3::zeros(),
+///     spin_torque: 0.0,
+///     ellipse: None,
+/// };
+/// let load = Wrench::from_force_at(&point, force);
+/// let felt = Felt { status: "contact", load, contact: Some(pressed), margin: None, slip: None };
+/// let sample = Sample::new(0.5, load, Some(felt));
+/// assert_eq!(sample.contact().map(|contact| contact.normal_force), Some(2.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
     /// Where \[m\].

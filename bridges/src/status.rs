@@ -1,6 +1,13 @@
 //! How the source is, beside its samples.
 
 /// How the source is.
+///
+/// ```
+/// use fingertip_bridges::Health;
+///
+/// let health = Health::Lost("no record within 2s".to_owned());
+/// assert_eq!((health.word(), Health::default().word()), ("lost", "waiting"));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Health {
     /// No sample has come yet.
@@ -31,6 +38,18 @@ impl Health {
 }
 
 /// The zeros that were asked for while it runs.
+///
+/// ```
+/// use fingertip_bridges::{About, Hub};
+///
+/// // Who reads the sensor tells what a new zero takes off.
+/// let hub = Hub::new(About::default());
+/// hub.publisher().tell(|status| {
+///     status.zero.taken += 1;
+///     status.zero.value = [0.1, 0.0, -0.3, 0.0, 0.0, 0.0];
+/// });
+/// assert_eq!(hub.status().zero.value[2], -0.3);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Zero {
     /// How many were taken.
@@ -44,6 +63,17 @@ pub struct Zero {
 }
 
 /// What is told when it changes.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_bridges::{About, Hub};
+///
+/// let hub = Hub::new(About::default());
+/// let mut reader = hub.subscribe();
+/// hub.publisher().tell(|status| status.reconnections += 1);
+/// let news = reader.wait(&mut Vec::new(), Duration::from_secs(1));
+/// assert_eq!(news.status.map(|status| status.reconnections), Some(1));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
     /// How the source is.

@@ -10,6 +10,21 @@ use crate::{Hub, Sample, Status};
 const AT_ONCE: usize = 256;
 
 /// Reads from a hub.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip::wrench::Wrench;
+/// use fingertip_bridges::{About, Hub, Sample};
+///
+/// let hub = Hub::new(About::default());
+/// let (mut reader, mut publisher, mut samples) = (hub.subscribe(), hub.publisher(), Vec::new());
+/// // Nobody reads for five seconds at 1 kHz: the oldest samples are gone.
+/// for number in 0..5000 {
+///     publisher.publish(Sample::new(f64::from(number) * 1e-3, Wrench::zero(), None));
+/// }
+/// reader.wait(&mut samples, Duration::from_secs(1));
+/// assert_eq!((reader.missed(), samples[0].number), (904, 904));
+/// ```
 #[derive(Debug)]
 pub struct Subscription {
     hub: Hub,
@@ -19,6 +34,19 @@ pub struct Subscription {
 }
 
 /// What came beside samples.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_bridges::{About, Health, Hub};
+///
+/// let hub = Hub::new(About::default());
+/// let mut reader = hub.subscribe();
+/// // The first call says how the source is.
+/// let news = reader.wait(&mut Vec::new(), Duration::from_secs(1));
+/// assert_eq!(news.status.map(|status| status.health), Some(Health::Waiting));
+/// hub.close();
+/// assert!(reader.wait(&mut Vec::new(), Duration::from_secs(1)).closed);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct News {
     /// Samples that were gone before they were read, since the last call.

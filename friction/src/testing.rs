@@ -9,6 +9,20 @@ use nalgebra::Vector3;
 use crate::FrictionLimit;
 
 /// Which of the laws a limit claims.
+///
+/// ```
+/// use fingertip_friction::testing::{Claims, friction_laws};
+/// use fingertip_friction::{Coulomb, LoadDependentLimit};
+/// use fingertip_wrench::ContactForce;
+///
+/// let length = |change: &ContactForce<f64>| change.normal.hypot(change.tangential_magnitude());
+/// let claims = Claims { homogeneous: true, convex: true, arm: 0.0, tolerance: 1e-12 };
+/// friction_laws(&Coulomb::new(0.5)?, &claims, length, 100);
+/// // A patch whose arm grows with the load makes no homogeneous limit, and is found out.
+/// let (limit, claims) = (LoadDependentLimit::new(0.5, 3e-3, 1.0, 1.0 / 3.0)?, Claims { arm: 3e-3, ..claims });
+/// assert!(std::panic::catch_unwind(|| friction_laws(&limit, &claims, length, 100)).is_err());
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Claims<T> {
     /// Margin and least normal force scale with the force.
@@ -23,6 +37,18 @@ pub struct Claims<T> {
 }
 
 /// A fixed pseudo-random sequence (PCG-XSH-RR 32, O'Neill 2014).
+///
+/// ```
+/// use fingertip_friction::testing::Draws;
+///
+/// // The same seed gives the same forces.
+/// let (mut draws, mut again) = (Draws::new(7), Draws::new(7));
+/// for _ in 0..100 {
+///     let force = draws.force::<f64>(0.01);
+///     assert_eq!(force, again.force(0.01));
+///     assert!(force.normal.abs() <= 20.0 && force.spin.abs() <= 0.1);
+/// }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Draws {
     state: u64,

@@ -22,6 +22,17 @@ pub struct ColumnName {
 }
 
 /// The quantity of a column.
+///
+/// ```
+/// use fingertip_recordings::{ColumnMeaning, ColumnName, ForceUnit, SignalUnit};
+///
+/// let meaning = |name: &str| ColumnName::parse(name).meaning;
+/// assert_eq!(meaning("Fz_N"), ColumnMeaning::Force(2, Some(ForceUnit::Newton)));
+/// assert_eq!(meaning("t_ms"), ColumnMeaning::Time(Some(1e-3)));
+/// assert_eq!(meaning("v3_mV"), ColumnMeaning::Signal(3, SignalUnit::Volt, 1e-3));
+/// assert_eq!(meaning("fz"), ColumnMeaning::Force(2, None)); // newtons, pounds? it does not say
+/// assert_eq!(meaning("weather"), ColumnMeaning::Other);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColumnMeaning {
     /// Time; seconds per unit, if the unit is known.

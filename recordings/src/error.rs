@@ -5,6 +5,18 @@ use std::io;
 use thiserror::Error;
 
 /// Why a recording cannot be read or written. Lines count from 1, the header included.
+///
+/// ```
+/// use fingertip_recordings::{RecordingError, RecordingReader};
+///
+/// // Somebody wrote a decimal comma.
+/// let file = "t_s;v1_V;v2_V\n0.0;0.25;0,5\n";
+/// let mut reader = RecordingReader::new("gauges.csv", file.as_bytes())?;
+/// let refused = reader.next_row().unwrap_err();
+/// assert!(matches!(&refused, RecordingError::NotANumber { line: 2, column, .. } if column == "v2_V"));
+/// assert!(refused.to_string().starts_with("gauges.csv, line 2, column v2_V: “0,5” is not a number"));
+/// # Ok::<(), RecordingError>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RecordingError {
@@ -99,6 +111,15 @@ pub enum RecordingError {
 }
 
 /// What a header lacks, and how to mend it.
+///
+/// ```
+/// use fingertip_recordings::{AssumedUnits, HeaderProblem, Layout};
+///
+/// let refused = Layout::from_header(&["t_s", "v1_V", "v2_V", "v4_V"], AssumedUnits::default()).unwrap_err();
+/// assert_eq!(refused, HeaderProblem::MissingSignal { sensor: String::new(), number: 3 });
+/// let told = "the signals lack number 3; they must be numbered without a hole, from 0 or 1";
+/// assert_eq!(refused.to_string(), told);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum HeaderProblem {

@@ -1,33 +1,31 @@
 //! Which columns belong to which sensor.
 
 mod inertial;
+mod left_out;
 
 use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 
 use crate::column_name::{ColumnMeaning, ColumnName};
 use crate::columns::{CONTACT_COLUMNS, ContactColumns, SignalColumns, WrenchColumns, of_sensor};
 use crate::error::HeaderProblem;
+use crate::options::AssumedUnits;
 use crate::unit::SignalUnit;
 
-/// Columns that look like a sensor's but cannot be used, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LeftOut {
-    /// Name of the sensor; empty if it has none.
-    pub sensor: String,
-    /// Why its columns cannot be used.
-    pub problem: HeaderProblem,
-}
-
-/// Units that the *user* states for columns whose names have none. Nothing is assumed by default.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct AssumedUnits {
-    /// Of forces.
-    pub force: Option<ForceUnit>,
-    /// Of torques.
-    pub torque: Option<TorqueUnit>,
-}
+pub use left_out::LeftOut;
 
 /// What a recording holds, as its header says.
+///
+/// ```
+/// use fingertip_recordings::{AssumedUnits, Layout};
+///
+/// let header = ["t_s", "v1_V", "v2_V", "left_v1_V", "left_v2_V", "weather"];
+/// let layout = Layout::from_header(&header, AssumedUnits::default())?;
+/// assert!(layout.has_time());
+/// assert_eq!(layout.signals().len(), 2); // of a sensor without a name, and of the left one
+/// assert_eq!(layout.names_of_signals(layout.signals_of("left")?), ["left_v1_V", "left_v2_V"]);
+/// assert_eq!(layout.ignored().collect::<Vec<_>>(), ["weather"]);
+/// # Ok::<(), fingertip_recordings::HeaderProblem>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     columns: Vec<String>,

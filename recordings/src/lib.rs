@@ -13,6 +13,7 @@ pub mod health;
 mod layout;
 #[cfg(feature = "mcap")]
 pub mod mcap;
+mod options;
 mod quality;
 mod reader;
 mod row;
@@ -30,9 +31,10 @@ pub use columns::{
 };
 pub use error::{HeaderProblem, RecordingError};
 pub use fingertip_wrench::units::{ForceUnit, TorqueUnit};
-pub use layout::{AssumedUnits, Layout, LeftOut};
+pub use layout::{Layout, LeftOut};
+pub use options::{AssumedUnits, ReaderOptions, RenamedColumn};
 pub use quality::{FaultCount, Quality};
-pub use reader::{ReaderOptions, RecordingReader, RenamedColumn};
+pub use reader::RecordingReader;
 pub use row::{Row, RowMarks};
 pub use row_block::RowBlock;
 pub use table::TableReader;

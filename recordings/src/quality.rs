@@ -3,6 +3,17 @@
 use core::fmt;
 
 /// How often a fault was seen, and in which lines first.
+///
+/// ```
+/// use fingertip_recordings::RecordingReader;
+///
+/// let file = "t_s,v1_V\n0.000,0.1\n0.001,\n0.002,0.1\n0.003,\n";
+/// let mut reader = RecordingReader::new("gauge.csv", file.as_bytes())?;
+/// while reader.next_row()?.is_some() {}
+/// let empty = reader.quality().empty_cells;
+/// assert_eq!((empty.count(), empty.first_lines()), (2, &[3, 5][..]));
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FaultCount {
     count: u64,
@@ -38,6 +49,21 @@ impl FaultCount {
 }
 
 /// The faults of a recording, as far as it has been read.
+///
+/// ```
+/// use fingertip_recordings::RecordingReader;
+///
+/// // A row that says the same again, one that is late, and one that goes back in time.
+/// let file = "t_s,v1_V\n0.000,0.1\n0.000,0.1\n0.001,0.2\n0.002,0.3\n0.003,0.4\n0.006,0.5\n0.005,0.6\n";
+/// let mut reader = RecordingReader::new("gauge.csv", file.as_bytes())?;
+/// while reader.next_row()?.is_some() {}
+/// let quality = reader.quality();
+/// assert!(!quality.is_clean());
+/// assert_eq!(quality.repeated_rows.first_lines(), [3]);
+/// assert_eq!(quality.gaps.first_lines(), [7]);
+/// assert_eq!(quality.backward_times.first_lines(), [8]);
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Quality {

@@ -8,7 +8,8 @@ use std::path::Path;
 use crate::cell::Cell;
 use crate::columns::{InertialColumns, NumberColumn};
 use crate::error::{HeaderProblem, RecordingError};
-use crate::layout::{AssumedUnits, Layout, UsedColumn, shortened};
+use crate::layout::{Layout, UsedColumn, shortened};
+use crate::options::{ReaderOptions, rename};
 use crate::quality::{FaultCount, Quality};
 use crate::row::{Row, RowMarks};
 use crate::row_block::RowBlock;
@@ -16,40 +17,23 @@ use crate::table::TableReader;
 use crate::time_watch::Step;
 use crate::timing::Timing;
 
-/// How a recording is read.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReaderOptions {
-    /// Units of columns whose names have none; none by default.
-    pub assumed_units: AssumedUnits,
-    /// A step of time above this many times the median of all steps before is a gap; 1.5 by
-    /// default, so that one lost sample shows.
-    pub gap_factor: f64,
-    /// Columns that have names of their own, and what to take them for; none by default.
-    pub renamed: Vec<RenamedColumn>,
-    /// Whether the first line names the columns, as it does by default. Without names they are called by their numbers,
-    /// `1`, `2` and so on, and `renamed` says what they are.
-    pub header: bool,
-}
-
-/// A column whose name says nothing to this library.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RenamedColumn {
-    /// As the file has it.
-    pub from: String,
-    /// What to take it for, as `fx_N` or `t_ms`.
-    pub to: String,
-    /// Whether its numbers have the other sign.
-    pub negative: bool,
-}
-
-impl Default for ReaderOptions {
-    fn default() -> Self {
-        let (assumed_units, renamed) = (AssumedUnits::default(), Vec::new());
-        Self { assumed_units, gap_factor: Timing::GAP_FACTOR, renamed, header: true }
-    }
-}
-
 /// Reads a recording row by row, in memory that does not grow with the file.
+///
+/// ```
+/// use fingertip_recordings::RecordingReader;
+/// use nalgebra::Vector2;
+///
+/// let file = "t_s,v1_V,v2_V\n0.000,0.25,0.5\n0.001,0.26,0.5\n"; // or a file, by `open`
+/// let mut reader = RecordingReader::new("gauges.csv", file.as_bytes())?;
+/// let gauges = reader.layout().only_signals()?.expecting(2)?.clone();
+/// let mut sum = Vector2::zeros();
+/// while let Some(row) = reader.next_row()? {
+///     sum += row.signals::<2>(&gauges).ok_or("a number is missing")?;
+/// }
+/// assert_eq!(sum, Vector2::new(0.51, 1.0));
+/// assert_eq!(reader.quality().rows, 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct RecordingReader<R> {
     table: TableReader<R>,
     layout: Layout,
@@ -71,29 +55,6 @@ impl<R> fmt::Debug for RecordingReader<R> {
             .field("quality", quality)
             .finish_non_exhaustive()
     }
-}
-
-/// Gives columns the names that they are to be taken for, and says which have the other sign.
-fn rename(names: &mut [String], renamed: &[RenamedColumn]) -> Result<Vec<usize>, HeaderProblem> {
-    let mut negative = Vec::new();
-    let mut places = Vec::new();
-    for column in renamed {
-        let place = names.iter().position(|name| name.trim_start_matches('\u{feff}').trim() == column.from);
-        let Some(place) = place else {
-            let columns = shortened(&names.join(", "), 120);
-            return Err(HeaderProblem::NoColumn { column: column.from.clone(), columns });
-        };
-        places.push((place, &column.to));
-        if column.negative {
-            negative.push(place);
-        }
-    }
-    for (place, to) in places {
-        if let Some(name) = names.get_mut(place) {
-            name.clone_from(to);
-        }
-    }
-    Ok(negative)
 }
 
 impl RecordingReader<File> {

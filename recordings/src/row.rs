@@ -8,6 +8,21 @@ use crate::columns::{
 };
 
 /// What is remarkable about a row.
+///
+/// ```
+/// use fingertip_recordings::RecordingReader;
+///
+/// let file = "t_s,v1_V\n0.000,0.1\n0.001,0.2\n0.002,nan\n0.003,0.3\n0.006,0.2\n";
+/// let mut reader = RecordingReader::new("gauge.csv", file.as_bytes())?;
+/// let mut marks = Vec::new();
+/// while let Some(row) = reader.next_row()? {
+///     marks.push(row.marks());
+/// }
+/// assert!(!marks[1].not_finite && !marks[1].gap);
+/// assert!(marks[2].not_finite);
+/// assert!(marks[4].gap); // two samples are missing before it
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RowMarks {
@@ -28,6 +43,22 @@ pub struct RowMarks {
 }
 
 /// One row: its line in the file, its time, and the values of its sensors in SI.
+///
+/// ```
+/// use fingertip_recordings::RecordingReader;
+///
+/// let file = "t_s,v1_V\n0.000,0.1\n0.002,0.2\n0.002,0.3\n";
+/// let mut reader = RecordingReader::new("gauge.csv", file.as_bytes())?;
+/// let gauge = reader.layout().only_signals()?.clone();
+/// reader.next_row()?;
+/// let second = reader.next_row()?.ok_or("no row")?;
+/// assert_eq!((second.line(), second.time(), second.time_step()), (3, Some(0.002), Some(0.002)));
+/// // The time of the third does not advance.
+/// let third = reader.next_row()?.ok_or("no row")?;
+/// assert!(!third.is_usable() && third.signals::<1>(&gauge).is_none());
+/// assert_eq!(third.unchecked_signals(&gauge).collect::<Vec<_>>(), [0.3]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row<'a> {
     pub(super) line: u64,

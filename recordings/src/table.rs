@@ -12,6 +12,19 @@ use crate::start::{comments, delimiter, read_start};
 /// Reads the rows of any CSV with a header, in memory that does not grow with the file: what
 /// [`RecordingReader`](crate::RecordingReader) and every other reader of tables stand on. Columns are parted by commas,
 /// or by semicolons or tabs where the header has no comma; lines that begin with `#`, and blank ones, are passed over.
+///
+/// ```
+/// use fingertip_recordings::TableReader;
+///
+/// let file = "# weighed on Monday\nmass_kg;pose\n0.5; upright\n";
+/// let mut table = TableReader::new("weights.csv", file.as_bytes())?;
+/// assert_eq!(table.comments(), ["weighed on Monday"]);
+/// assert_eq!(table.names(), ["mass_kg", "pose"]);
+/// assert!(table.advance()?);
+/// assert_eq!((table.line(), table.text(1)), (3, "upright"));
+/// assert!(!table.advance()?);
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
+/// ```
 pub struct TableReader<R> {
     file: String,
     csv: csv::Reader<Bounded<Chain<Cursor<Vec<u8>>, R>>>,

@@ -87,6 +87,21 @@ fn prefixed(sensor: &str, name: &str) -> String {
 
 /// Writes rows of numbers under a header. Numbers are written with as many digits as it takes to
 /// read them back exactly.
+///
+/// ```
+/// use fingertip_recordings::{RecordingWriter, Schema};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let mut writer = RecordingWriter::new(Vec::new(), &Schema::default().time().wrench(""))?;
+/// let load = Wrench::on_fingertip(Vector3::new(0.3, 0.0, -2.0), Vector3::zeros());
+/// writer.write_wrench(0.001, &load)?;
+/// writer.write([0.002, 0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0])?; // a number is missing
+/// let file = String::from_utf8(writer.finish()?)?;
+/// let expected = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0.001,0.3,0.0,-2.0,0.0,0.0,0.0\n0.002,0.0,0.0,,0.0,0.0,0.0\n";
+/// assert_eq!(file, expected);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct RecordingWriter<W> {
     out: W,
     columns: usize,

@@ -29,6 +29,9 @@ pub(crate) struct TrackingSection {
     /// So many samples lie between two false events, or more.
     #[serde(default = "usual_samples")]
     samples_per_false_event: f64,
+    /// So soon the force of a blow falls to half its peak, or sooner.
+    #[serde(default = "usual_impact")]
+    longest_impact_s: f64,
 }
 
 const fn usual_share() -> f64 {
@@ -36,6 +39,9 @@ const fn usual_share() -> f64 {
 }
 const fn usual_samples() -> f64 {
     1e6
+}
+const fn usual_impact() -> f64 {
+    0.05
 }
 
 /// Which key is wrong.
@@ -60,6 +66,7 @@ impl TrackingSection {
             "time to turn" => wrong("turns_within_s", "positive and finite"),
             "share of samples beyond the gate" => wrong("doubted_share", "between 0 and 1"),
             "samples between false ones" => wrong("samples_per_false_event", "finite and more than one"),
+            "longest impact" => wrong("longest_impact_s", "positive and finite"),
             "noise" => wrong("least_touch_N", "left out, or `force_noise_N` of [uncertainty] positive"),
             "least force" | "least force over its noise" => {
                 wrong("least_touch_N", "positive and finite, and of the size of forces")
@@ -72,7 +79,9 @@ impl TrackingSection {
         let samples = number(self.samples_per_false_event);
         let events = match self.least_touch {
             Some(least) => {
-                Some(ContactEvents::new(uncertainty.force_noise(), number(least), samples).map_err(key)?)
+                let events = ContactEvents::new(uncertainty.force_noise(), number(least), samples);
+                let longest = number(self.longest_impact_s);
+                Some(events.and_then(|events| events.with_longest_impact(longest)).map_err(key)?)
             }
             None => None,
         };

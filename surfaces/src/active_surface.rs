@@ -7,6 +7,21 @@ use crate::numeric::vectors::in_range;
 use crate::{NoShortcuts, Shortcuts};
 
 /// Where a line passes through a surface.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // Down the z axis into a ball of 13 mm from 50 mm above its centre.
+/// let line = Line { point: Vector3::new(0.0, 0.0, 0.05), direction: -Vector3::z() };
+/// let mut crossings = Vec::new();
+/// Sphere::centred(0.013)?.crossings(&line, |crossing| crossings.push(crossing));
+/// let [entry, exit] = crossings[..] else { unreachable!("a ball is entered and left") };
+/// assert!((entry.along - 0.037_f64).abs() < 1e-15 && (exit.along - 0.063_f64).abs() < 1e-15);
+/// assert_eq!((entry.normal, exit.normal), (Vector3::z(), -Vector3::z()));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing<T: Real> {
     /// Signed distance from the line's point, along its direction \[m\].
@@ -21,6 +36,20 @@ pub struct Crossing<T: Real> {
 }
 
 /// Where a force enters a surface that its line enters only once.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, ForceLine, Shortcuts, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A force down, half a radius beside the axis of a ball: it meets the surface at 30° to the normal.
+/// let line = Line { point: Vector3::new(0.0065, 0.0, 0.05), direction: -Vector3::z() };
+/// let sphere = Sphere::centred(0.013)?;
+/// let entry = sphere.shortcuts().sole_entry(&ForceLine::along(&line)).unwrap();
+/// assert!((entry.normal.x - 0.5_f64).abs() < 1e-15);
+/// assert!((entry.incidence_squared - 0.75_f64).abs() < 1e-15); // cos² 30°
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry<T: Real> {
     /// The point of the surface \[m\].
@@ -38,6 +67,22 @@ pub struct Entry<T: Real> {
 }
 
 /// Magnitudes of a force's parts at a tangent plane.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, ForceLine, Shortcuts, Sphere};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 2 N down, half a radius beside the axis of a ball: 30° to the normal.
+/// let point = Vector3::new(0.0065, 0.0, 0.05);
+/// let wrench: Wrench<f64> = Wrench::from_force_at(&point, Vector3::new(0.0, 0.0, -2.0));
+/// let push = ForceLine::new(&wrench, ForceLine::least_squared()).unwrap();
+/// let sphere = Sphere::centred(0.013)?;
+/// let parts = sphere.shortcuts().sole_entry(&push).unwrap().parts.unwrap();
+/// assert!((parts.normal - 3.0_f64.sqrt()).abs() < 1e-14); // 2 N · cos 30°
+/// assert!((parts.tangential - 1.0).abs() < 1e-14); // 2 N · sin 30°
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceParts<T: Real> {
     /// Normal force \[N\], positive when pressing.
@@ -80,6 +125,19 @@ impl<T: Real> Entry<T> {
 }
 
 /// The point of a surface closest to a line that misses it.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // Past a ball of 13 mm, 15 mm from its centre.
+/// let line = Line { point: Vector3::new(0.015, 0.0, 0.05), direction: -Vector3::z() };
+/// let nearest = Sphere::centred(0.013)?.closest_approach(&line).unwrap();
+/// assert!((nearest.gap - 0.002_f64).abs() < 1e-15);
+/// assert_eq!(nearest.point, Vector3::new(0.013, 0.0, 0.0));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -136,6 +194,7 @@ pub struct ClosestApproach<T: Real> {
 /// }
 ///
 /// SurfaceLaws::around(Vector3::zeros(), 1.0).check(&Ball)?;
+/// assert!(Ball.contains(&Vector3::new(0.0, 0.9, 0.0)) && !Ball.contains(&Vector3::new(0.0, 1.1, 0.0)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[diagnostic::on_unimplemented(

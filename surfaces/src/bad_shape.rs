@@ -7,6 +7,14 @@ use thiserror::Error;
 use crate::numeric::vectors::{is_finite, unit_or};
 
 /// A parameter of a shape is out of range.
+///
+/// ```
+/// use fingertip_surfaces::Sphere;
+///
+/// let refused = Sphere::<f64>::centred(-0.013).unwrap_err();
+/// assert_eq!(refused.parameter, "radius");
+/// assert_eq!(refused.to_string(), "the radius of a sphere must be a positive finite length");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the {parameter} of {} {shape} must be {requirement}", article(shape))]
 pub struct BadShape {

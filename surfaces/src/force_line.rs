@@ -10,6 +10,22 @@ use nalgebra::Vector3;
 /// The magnitude of the force lies between [`least_squared`](Self::least_squared) and
 /// [`greatest_squared`](Self::greatest_squared), so that its square is as good as exact; the torque
 /// may be anything, NaN included, and may have a part along the force.
+///
+/// ```
+/// use fingertip_surfaces::ForceLine;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 2 N down at x = 10 mm.
+/// let point = Vector3::new(0.01, 0.0, 0.03);
+/// let wrench: Wrench<f64> = Wrench::from_force_at(&point, Vector3::new(0.0, 0.0, -2.0));
+/// let push = ForceLine::new(&wrench, ForceLine::least_squared()).unwrap();
+/// assert_eq!(push.squared(), 4.0);
+/// assert!((push.line().point - Vector3::new(0.01, 0.0, 0.0)).amax() < 1e-15);
+/// assert!(push.torque_about(&point).amax() < 1e-15); // it turns nothing about its own point
+/// // No load has no line.
+/// assert_eq!(ForceLine::new(&Wrench::<f64>::zero(), ForceLine::least_squared()), None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceLine<T: Real> {
     force: Vector3<T>,

@@ -6,6 +6,26 @@ use crate::Superquadric;
 
 /// The shape that a surface is a part of, near one of its points, by the very numbers that it stores: a
 /// single-precision shape too is one of these, exactly.
+///
+/// What a shape of one's own, made of parts, tells of its points:
+///
+/// ```
+/// use fingertip_surfaces::LocalSurface;
+/// use nalgebra::Vector3;
+///
+/// /// A rod of 5 mm radius with round ends, 10 mm up and down its axis z.
+/// fn part(point: &Vector3<f64>) -> LocalSurface {
+///     let (origin, axis, radius) = (Vector3::zeros(), Vector3::z(), 0.005);
+///     if point.z.abs() <= 0.01 {
+///         LocalSurface::Cone { origin, axis, radius, taper: [radius, radius, 1.0] }
+///     } else {
+///         LocalSurface::Ball { origin, axis, height: 0.01_f64.copysign(point.z), radius }
+///     }
+/// }
+///
+/// assert!(matches!(part(&Vector3::new(0.005, 0.0, 0.0)), LocalSurface::Cone { .. }));
+/// assert!(matches!(part(&Vector3::new(0.0, 0.0, -0.015)), LocalSurface::Ball { height: -0.01, .. }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LocalSurface {
     /// The plane through a point \[m\] across a normal of any length.

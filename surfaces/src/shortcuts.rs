@@ -38,6 +38,12 @@ use crate::{Entry, ForceLine};
 /// let sphere = Sphere::centred(0.013)?;
 /// let counted = Counted(sphere, 0.into());
 /// SurfaceLaws::around(Vector3::zeros(), 0.013).check_wrapper(&sphere, &counted, Kept::All)?;
+/// // Where a force enters is known without looking for crossings.
+/// use fingertip_surfaces::ForceLine;
+/// let asked = counted.1.get();
+/// let down = Line { point: Vector3::new(0.0, 0.0, 0.05), direction: -Vector3::z() };
+/// let entry = counted.shortcuts().sole_entry(&ForceLine::along(&down)).unwrap();
+/// assert_eq!((entry.point.z, counted.1.get()), (0.013, asked));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Shortcuts<T: Real>: Sized {
@@ -85,6 +91,16 @@ pub trait Shortcuts<T: Real>: Sized {
 }
 
 /// No shortcuts: everything is told by crossings.
+///
+/// ```
+/// use fingertip_surfaces::{ForceLine, NoShortcuts, Shortcuts};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// let push = ForceLine::along(&Line { point: Vector3::<f64>::zeros(), direction: Vector3::z() });
+/// assert_eq!(NoShortcuts.sole_entry(&push), None);
+/// assert!(!<NoShortcuts as Shortcuts<f64>>::CLOSED_CONVEX);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoShortcuts;
 

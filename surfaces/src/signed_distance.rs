@@ -6,6 +6,17 @@ use nalgebra::Vector3;
 use crate::ActiveSurface;
 
 /// How far a point is from a surface, and in which direction the distance grows.
+///
+/// ```
+/// use fingertip_surfaces::{SignedDistance, Sphere};
+/// use nalgebra::Vector3;
+///
+/// // A point 3 mm under the surface of a ball: its nearest place is straight out.
+/// let under = Sphere::centred(0.013)?.signed_distance(&Vector3::new(0.0, 0.01, 0.0));
+/// assert!((under.distance + 0.003_f64).abs() < 1e-15);
+/// assert_eq!(under.normal, Vector3::y());
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distance<T: Real> {
     /// Distance to the closest point of the surface \[m\], negative inside.
@@ -16,6 +27,22 @@ pub struct Distance<T: Real> {
 
 /// A surface that knows the exact distance of any point, as its parallel surface needs
 /// ([`Offset`](crate::Offset)).
+///
+/// ```
+/// use fingertip_surfaces::{BadShape, RoundedBox, SignedDistance, Sphere};
+/// use nalgebra::Vector3;
+///
+/// /// The place of a surface that is nearest to a point.
+/// fn nearest(surface: &impl SignedDistance<f64>, point: &Vector3<f64>) -> Vector3<f64> {
+///     let found = surface.signed_distance(point);
+///     point - found.normal * found.distance
+/// }
+///
+/// let above = Vector3::new(0.0, 0.0, 0.02);
+/// assert_eq!(nearest(&Sphere::centred(0.013)?, &above).z, 0.013);
+/// assert!((nearest(&RoundedBox::new(Vector3::repeat(0.01), 0.001)?, &above).z - 0.01).abs() < 1e-15);
+/// # Ok::<(), BadShape>(())
+/// ```
 pub trait SignedDistance<T: Real>: ActiveSurface<T> {
     /// `true` if the inside is convex: its parallel surfaces are then met by a line twice at most,
     /// and found much faster.

@@ -24,6 +24,15 @@ pub const INCH: f64 = 0.025_4;
 pub const FOOT: f64 = 0.304_8;
 
 /// A unit of force.
+///
+/// ```
+/// use fingertip_wrench::units::ForceUnit;
+///
+/// // 2 lbf, as a sensor of American make reports it.
+/// let unit = ForceUnit::from_name("lbf").unwrap();
+/// assert_eq!(2.0 * unit.in_newtons(), 8.896_443_230_521);
+/// assert_eq!(ForceUnit::GramForce.in_newtons(), 9.806_65e-3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ForceUnit {
@@ -46,6 +55,16 @@ pub enum ForceUnit {
 }
 
 /// A unit of torque.
+///
+/// ```
+/// use fingertip_wrench::units::TorqueUnit;
+///
+/// assert_eq!(TorqueUnit::from_name("in-lb"), Some(TorqueUnit::PoundForceInch));
+/// assert_eq!(TorqueUnit::from_name("mN·m").map(TorqueUnit::in_newton_metres), Some(1e-3));
+/// // A foot has twelve inches.
+/// let (inch, foot) = (TorqueUnit::PoundForceInch, TorqueUnit::PoundForceFoot);
+/// assert!((foot.in_newton_metres() / inch.in_newton_metres() - 12.0).abs() < 1e-14);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TorqueUnit {
@@ -74,6 +93,15 @@ pub enum TorqueUnit {
 }
 
 /// A unit of length.
+///
+/// ```
+/// use fingertip_wrench::units::LengthUnit;
+///
+/// let unit = LengthUnit::from_name("mm").unwrap();
+/// assert_eq!(12.5 * unit.in_metres(), 0.0125);
+/// assert_eq!(LengthUnit::from_name("inch"), Some(LengthUnit::Inch));
+/// assert_eq!(LengthUnit::from_name("furlong"), None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LengthUnit {

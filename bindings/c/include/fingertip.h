@@ -87,6 +87,29 @@ typedef uint32_t ft_status;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// How a sample fits to the track before it.
+enum ft_continuity
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // Another contact than before, or the first: what was known of the old one is forgotten.
+    FT_TRACK_NEW = 0,
+    // The same contact, a little farther.
+    FT_TRACK_FOLLOWED = 1,
+    // Too far away for the same contact: a sample gone wrong, or, if the next one is there too, a new contact.
+    FT_TRACK_DOUBTED = 2,
+    // No contact was seen, but the track still knows where it would be.
+    FT_TRACK_BRIDGED = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum ft_continuity ft_continuity;
+#else
+typedef uint32_t ft_continuity;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // Whether a sample is a contact, and if not, why not.
 enum ft_resolution
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -221,6 +244,12 @@ typedef struct ft_beside {
     uint32_t has_touching;
     // 1 while something touches, by all samples so far.
     uint32_t touching;
+    // At the sample at which a touch is called.
+    uint32_t has_touch;
+    // At the sample at which a release is called.
+    uint32_t has_release;
+    // At the sample at which a blow is over.
+    uint32_t has_impact;
     // With a friction that is known with a deviation.
     uint32_t has_slip_probability;
     // While a stick-slip motion goes on that the scene looks for.
@@ -231,6 +260,8 @@ typedef struct ft_beside {
     uint32_t has_kinetic_friction;
     // With [grip].
     uint32_t has_grip_force;
+    // How the sample fits to the track.
+    ft_continuity continuity;
     // Zero.
     uint32_t reserved;
     // Semi-axes of the ellipse in which the contact lies, the longer first, in m.
@@ -247,6 +278,26 @@ typedef struct ft_beside {
     double tracked_normal[3];
     // How fast it moves over the fingertip, in m/s.
     double tracked_velocity[3];
+    // Two unit vectors in the tangent plane there, to which the next four refer.
+    double tracked_tangents[2][3];
+    // Covariance of the position in m².
+    double tracked_position_covariance[2][2];
+    // Covariance of the velocity in m²/s².
+    double tracked_velocity_covariance[2][2];
+    // From where the contact was expected to where the sample saw it, along the tangents of the sample before, in m.
+    double tracked_innovation[2];
+    // The same squared over its variance: chi squared of two degrees of freedom while the contact moves as the scene says.
+    double tracked_surprise;
+    // How long ago the touch that is called showed first, in s.
+    double touch_age;
+    // How long ago the release that is called showed first, in s.
+    double release_age;
+    // Greatest force of the blow, in N.
+    double impact_peak;
+    // Its force summed over its time, on the fingertip, in N·s.
+    double impact_impulse[3];
+    // From its first sign to where the force was least behind its peak, in s.
+    double impact_duration;
     // The probability that the contact slips.
     double slip_probability;
     // Mean time between the drops of the stick-slip motion, in s.

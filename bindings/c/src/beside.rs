@@ -1,10 +1,37 @@
 //! What a sample says beside contact, forces, margin and verdict, where the scene asks for it.
 
+use fingertip::contact::{Continuity, Happened, Tracked};
 use fingertip_scene::Felt;
 
 use crate::border::{on, place};
 use crate::fault::ft_status;
 use crate::tip::ft_tip;
+
+/// How a sample fits to the track before it.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ft_continuity {
+    /// Another contact than before, or the first: what was known of the old one is forgotten.
+    #[default]
+    FT_TRACK_NEW = 0,
+    /// The same contact, a little farther.
+    FT_TRACK_FOLLOWED = 1,
+    /// Too far away for the same contact: a sample gone wrong, or, if the next one is there too, a new contact.
+    FT_TRACK_DOUBTED = 2,
+    /// No contact was seen, but the track still knows where it would be.
+    FT_TRACK_BRIDGED = 3,
+}
+
+impl ft_continuity {
+    const fn of(continuity: Continuity) -> Self {
+        match continuity {
+            Continuity::New => Self::FT_TRACK_NEW,
+            Continuity::Followed => Self::FT_TRACK_FOLLOWED,
+            Continuity::Doubted => Self::FT_TRACK_DOUBTED,
+            Continuity::Bridged => Self::FT_TRACK_BRIDGED,
+        }
+    }
+}
 
 /// What the last sample says beside its touch. Each group counts only where its flag is 1, and is zero else.
 #[repr(C)]
@@ -18,6 +45,12 @@ pub struct ft_beside {
     pub has_touching: u32,
     /// 1 while something touches, by all samples so far.
     pub touching: u32,
+    /// At the sample at which a touch is called.
+    pub has_touch: u32,
+    /// At the sample at which a release is called.
+    pub has_release: u32,
+    /// At the sample at which a blow is over.
+    pub has_impact: u32,
     /// With a friction that is known with a deviation.
     pub has_slip_probability: u32,
     /// While a stick-slip motion goes on that the scene looks for.
@@ -28,6 +61,8 @@ pub struct ft_beside {
     pub has_kinetic_friction: u32,
     /// With [grip].
     pub has_grip_force: u32,
+    /// How the sample fits to the track.
+    pub continuity: ft_continuity,
     /// Zero.
     pub reserved: u32,
     /// Semi-axes of the ellipse in which the contact lies, the longer first, in m.
@@ -44,6 +79,26 @@ pub struct ft_beside {
     pub tracked_normal: [f64; 3],
     /// How fast it moves over the fingertip, in m/s.
     pub tracked_velocity: [f64; 3],
+    /// Two unit vectors in the tangent plane there, to which the next four refer.
+    pub tracked_tangents: [[f64; 3]; 2],
+    /// Covariance of the position in m².
+    pub tracked_position_covariance: [[f64; 2]; 2],
+    /// Covariance of the velocity in m²/s².
+    pub tracked_velocity_covariance: [[f64; 2]; 2],
+    /// From where the contact was expected to where the sample saw it, along the tangents of the sample before, in m.
+    pub tracked_innovation: [f64; 2],
+    /// The same squared over its variance: chi squared of two degrees of freedom while the contact moves as the scene says.
+    pub tracked_surprise: f64,
+    /// How long ago the touch that is called showed first, in s.
+    pub touch_age: f64,
+    /// How long ago the release that is called showed first, in s.
+    pub release_age: f64,
+    /// Greatest force of the blow, in N.
+    pub impact_peak: f64,
+    /// Its force summed over its time, on the fingertip, in N·s.
+    pub impact_impulse: [f64; 3],
+    /// From its first sign to where the force was least behind its peak, in s.
+    pub impact_duration: f64,
     /// The probability that the contact slips.
     pub slip_probability: f64,
     /// Mean time between the drops of the stick-slip motion, in s.
@@ -71,13 +126,10 @@ impl ft_beside {
             told.spin_torque_deviation = spread.spin_torque;
         }
         if let Some(tracked) = &felt.tracked {
-            told.has_tracked = 1;
-            told.tracked_point = tracked.point.into();
-            told.tracked_normal = tracked.normal.into();
-            told.tracked_velocity = tracked.velocity.into();
+            told.follow(tracked);
         }
         if let Some(happened) = &felt.happened {
-            (told.has_touching, told.touching) = (1, u32::from(happened.touching));
+            told.call(happened);
         }
         if let Some(probability) = felt.slip_probability {
             (told.has_slip_probability, told.slip_probability) = (1, probability);
@@ -99,6 +151,34 @@ impl ft_beside {
             (told.has_grip_force, told.grip_force) = (1, force);
         }
         told
+    }
+
+    fn follow(&mut self, tracked: &Tracked<f64>) {
+        self.has_tracked = 1;
+        self.continuity = ft_continuity::of(tracked.continuity);
+        self.tracked_point = tracked.point.into();
+        self.tracked_normal = tracked.normal.into();
+        self.tracked_velocity = tracked.velocity.into();
+        self.tracked_tangents = tracked.tangents.map(Into::into);
+        // Symmetric, so that rows and columns are the same.
+        self.tracked_position_covariance = tracked.position_covariance.into();
+        self.tracked_velocity_covariance = tracked.velocity_covariance.into();
+        self.tracked_innovation = tracked.innovation.into();
+        self.tracked_surprise = tracked.surprise;
+    }
+
+    fn call(&mut self, happened: &Happened<f64>) {
+        (self.has_touching, self.touching) = (1, u32::from(happened.touching));
+        if let Some(age) = happened.touch {
+            (self.has_touch, self.touch_age) = (1, age);
+        }
+        if let Some(age) = happened.release {
+            (self.has_release, self.release_age) = (1, age);
+        }
+        if let Some(impact) = &happened.impact {
+            (self.has_impact, self.impact_peak, self.impact_duration) = (1, impact.peak, impact.duration);
+            self.impact_impulse = impact.impulse.into();
+        }
     }
 }
 

@@ -32,7 +32,7 @@ mod touch;
 mod version;
 
 pub use ball::{ft_ball, ft_ball_defaults, ft_tip_from_ball};
-pub use beside::{ft_beside, ft_beside_last};
+pub use beside::{ft_beside, ft_beside_last, ft_continuity};
 pub use columns::{ft_sense_all, ft_touch_columns, ft_wrench_columns};
 pub use create::{ft_tip_from_file, ft_tip_from_scene};
 pub use fault::{ft_status, ft_status_text};

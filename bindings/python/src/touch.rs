@@ -332,6 +332,12 @@ impl PyTracked {
         self.0.deviation()
     }
 
+    /// From where the contact was expected to where the sample saw it, along the tangents of the sample before [m].
+    #[getter]
+    fn innovation<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        numbers::array(py, &self.0.innovation)
+    }
+
     /// How far the sample is from what was expected: χ² of two degrees of freedom.
     #[getter]
     fn surprise(&self) -> f64 {

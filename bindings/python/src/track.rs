@@ -71,6 +71,9 @@ impl PyMeeting {
 /// least_force : float
 ///     The smallest touch [N].
 /// samples_per_false_event : float, optional
+///     So many samples lie between two false events, or more, in the mean.
+/// longest_impact : float, optional
+///     So soon the force of a blow falls to half its peak, or it is a press [s].
 ///
 /// Examples
 /// --------
@@ -86,12 +89,13 @@ impl PyMeeting {
 #[derive(Clone)]
 pub(crate) struct PyEvents {
     events: ContactEvents<f64>,
-    made: (f64, f64, f64),
+    made: (f64, f64, f64, f64),
 }
 
 impl PyEvents {
-    fn of(made: (f64, f64, f64)) -> PyResult<Self> {
-        let events = ContactEvents::new(made.0, made.1, made.2).map_err(errors::bad)?;
+    fn of(made: (f64, f64, f64, f64)) -> PyResult<Self> {
+        let events = ContactEvents::new(made.0, made.1, made.2);
+        let events = events.and_then(|events| events.with_longest_impact(made.3)).map_err(errors::bad)?;
         Ok(Self { events, made })
     }
 }
@@ -102,9 +106,14 @@ value::learner_class!(PyMeeting);
 #[pymethods]
 impl PyEvents {
     #[new]
-    #[pyo3(signature = (noise, least_force, samples_per_false_event=1e6))]
-    fn new(noise: f64, least_force: f64, samples_per_false_event: f64) -> PyResult<Self> {
-        Self::of((noise, least_force, samples_per_false_event))
+    #[pyo3(signature = (noise, least_force, samples_per_false_event=1e6, longest_impact=0.05))]
+    fn new(
+        noise: f64,
+        least_force: f64,
+        samples_per_false_event: f64,
+        longest_impact: f64,
+    ) -> PyResult<Self> {
+        Self::of((noise, least_force, samples_per_false_event, longest_impact))
     }
 
     /// Takes a force on the fingertip [N], shape (3,), and the time since the one before [s].

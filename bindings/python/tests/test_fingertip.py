@@ -221,4 +221,8 @@ def test_what_a_scene_asks_for_beside_is_told():
     assert pickle.loads(pickle.dumps(touch)) == touch
     assert np.linalg.norm(touch.tracked.point - touch.point) < 1e-3
     assert touch.tracked.continuity is fingertip.Continuity.FOLLOWED and touch.happened.touching
+    # The same press again and again: nothing is found elsewhere than expected.
+    assert touch.tracked.innovation.shape == (2,) and np.abs(touch.tracked.innovation).max() < 1e-6
+    moved = tip.sense([0.1, 0, -1, 0, 1.2e-3, 0], 1e-3).tracked
+    assert np.linalg.norm(moved.innovation) > 1e-5 and moved.surprise > touch.tracked.surprise
     assert 0.5 <= touch.grip_force <= 10.0 and touch.static_friction is None

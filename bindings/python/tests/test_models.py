@@ -197,6 +197,14 @@ def test_what_happens_is_told():
     told = [events.observe([0, 0, -force], 1e-3) for force in [0.0] * 20 + [0.5] * 20 + [0.0] * 40]
     assert not told[19].touching and told[25].touching and not told[-1].touching
     assert sum(one.touch is not None for one in told) == 1 == sum(one.release is not None for one in told)
+    # A force that falls by 1/e in 0.1 s is a blow to those who wait for it.
+    swing = [0.0] * 20 + [3.0 * np.exp(-k / 100) for k in range(300)]
+    for longest, blows in [(0.05, 0), (0.2, 1)]:
+        events = fingertip.ContactEvents(0.01, 0.06, longest_impact=longest)
+        told = [events.observe([0, 0, -force], 1e-3).impact for force in swing]
+        assert [blow.peak for blow in told if blow] == pytest.approx([3.0] * blows)
+    with pytest.raises(ValueError, match="longest impact"):
+        fingertip.ContactEvents(0.01, 0.06, longest_impact=-1.0)
 
 
 def test_wrench_and_array_are_fused():

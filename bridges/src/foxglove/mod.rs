@@ -39,6 +39,19 @@ const DRAWN: Duration = Duration::from_millis(33);
 const SCENE: &str = "/fingertip/scene";
 
 /// Why there is no server.
+///
+/// ```
+/// use fingertip_bridges::foxglove::Server;
+/// use fingertip_bridges::{About, Hub};
+///
+/// // Something else listens there.
+/// let other = std::net::TcpListener::bind("127.0.0.1:0")?;
+/// let address = other.local_addr()?;
+/// let told = Server::start(&Hub::new(About::default()), address, false).unwrap_err().to_string();
+/// assert!(told.starts_with(&format!("cannot serve on {address}: ")), "{told}");
+/// assert!(told.ends_with("give another address or port, or port 0 for any free one"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ServerError {
@@ -56,6 +69,17 @@ pub enum ServerError {
 }
 
 /// A server; it ends when it is dropped.
+///
+/// ```
+/// use fingertip_bridges::foxglove::Server;
+/// use fingertip_bridges::{About, Hub};
+///
+/// // Foxglove opens ws:// with this address; it may watch, and command nothing.
+/// let server = Server::start(&Hub::new(About::default()), "127.0.0.1:0".parse()?, false)?;
+/// assert_ne!(server.address().port(), 0);
+/// assert_eq!(server.missed(), 0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Server {
     handle: Option<WebSocketServerHandle>,

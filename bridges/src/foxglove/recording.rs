@@ -9,6 +9,14 @@ use super::{DRAWN, SCENE, SURFACE, drawing};
 use crate::{About, Sample};
 
 /// What a recording says once of a topic.
+///
+/// ```
+/// use fingertip_bridges::foxglove::SceneRecording;
+///
+/// let encoded = SceneRecording::encoded().unwrap();
+/// assert_eq!((encoded.topic, encoded.messages.as_str()), ("/fingertip/scene", "protobuf"));
+/// assert!(!encoded.text.is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Encoded {
     /// What the topic is called.

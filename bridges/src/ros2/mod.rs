@@ -37,6 +37,14 @@ use node::Participant;
 pub use source::{WrenchSource, WrenchSourceError};
 
 /// Where a node is.
+///
+/// ```
+/// use fingertip_bridges::ros2::Options;
+///
+/// let options = Options { namespace: "/left/thumb".to_owned(), domain: 7, ..Options::default() };
+/// // Nothing leaves this computer unless another interface is named.
+/// assert!(options.interface.is_loopback());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
     /// The names of topics begin so, such as `/fingertip`.
@@ -52,6 +60,13 @@ pub struct Options {
 }
 
 /// How services are mapped to DDS: each middleware of ROS 2 has its own way.
+///
+/// ```
+/// use fingertip_bridges::ros2::Services;
+///
+/// assert_eq!(Services::of("rmw_cyclonedds_cpp"), Services::Cyclone);
+/// assert_eq!(Services::of("rmw_fastrtps_cpp"), Services::Enhanced);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Services {
     /// As `rmw_fastrtps_cpp`, the default of ROS 2, and `rmw_connextdds` do.
@@ -82,6 +97,18 @@ impl Default for Options {
 }
 
 /// Why there is no node.
+///
+/// ```
+/// use fingertip_bridges::ros2::{Node, Options};
+/// use fingertip_bridges::{About, Hub};
+///
+/// let hub = Hub::new(About::default());
+/// let told = |options| Node::start(&hub, &options).unwrap_err().to_string();
+/// let domain = told(Options { domain: 233, ..Options::default() });
+/// assert_eq!(domain, "domain 233 is none; give one from 0 to 232");
+/// let name = told(Options { namespace: "left thumb".to_owned(), ..Options::default() });
+/// assert!(name.starts_with("“left thumb” is no name of ROS 2: it begins with a slash"), "{name}");
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NodeError {
@@ -116,6 +143,13 @@ pub enum NodeError {
 }
 
 /// What has happened so far.
+///
+/// ```
+/// use fingertip_bridges::ros2::Counts;
+///
+/// let counts = Counts { missed: 12, ..Counts::default() };
+/// assert_eq!((counts.missed, counts.refused), (12, 0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Samples that were not sent, since sending was too slow for them.
@@ -133,6 +167,19 @@ struct Shared {
 }
 
 /// A node with its topics and services; it ends when it is dropped.
+///
+/// ```
+/// use fingertip::wrench::Wrench;
+/// use fingertip_bridges::ros2::{Counts, Node, Options};
+/// use fingertip_bridges::{About, Hub, Sample};
+///
+/// let hub = Hub::new(About::default());
+/// let node = Node::start(&hub, &Options { domain: 199, ..Options::default() })?;
+/// // What is published is on /fingertip/wrench.
+/// hub.publisher().publish(Sample::new(0.001, Wrench::zero(), None));
+/// assert_eq!(node.counts(), Counts::default());
+/// # Ok::<(), fingertip_bridges::ros2::NodeError>(())
+/// ```
 #[derive(Debug)]
 pub struct Node {
     shared: Arc<Shared>,

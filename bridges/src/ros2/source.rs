@@ -39,6 +39,15 @@ struct WrenchStamped {
 }
 
 /// Why there is no sample.
+///
+/// ```
+/// use fingertip_bridges::ros2::WrenchSourceError;
+/// use fingertip_drivers::{SourceError, SourceErrorKind};
+///
+/// let told = "no message within 100 ms; is the driver publishing geometry_msgs/msg/WrenchStamped there?";
+/// assert_eq!(WrenchSourceError::Silent.to_string(), told);
+/// assert_eq!(WrenchSourceError::Silent.kind(), SourceErrorKind::Timeout);
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WrenchSourceError {
@@ -60,6 +69,16 @@ impl SourceError for WrenchSourceError {
 }
 
 /// The wrenches of a topic.
+///
+/// ```
+/// use fingertip_bridges::ros2::{Options, WrenchSource, WrenchSourceError};
+/// use fingertip_drivers::Source;
+///
+/// // No driver publishes there.
+/// let mut source = WrenchSource::open("/ft_sensor/wrench", &Options { domain: 198, ..Options::default() })?;
+/// assert!(matches!(source.next_sample(), Err(WrenchSourceError::Silent)));
+/// # Ok::<(), fingertip_bridges::ros2::NodeError>(())
+/// ```
 pub struct WrenchSource {
     subscription: Subscription<WrenchStamped>,
     _participant: Participant,

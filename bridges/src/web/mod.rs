@@ -36,6 +36,19 @@ const CONNECTIONS: usize = 16;
 const SENDING: Duration = Duration::from_secs(2);
 
 /// Why there is no page.
+///
+/// ```
+/// use fingertip_bridges::web::{Options, Server, Tokens};
+/// use fingertip_bridges::{About, Hub};
+///
+/// // Something else listens there.
+/// let other = std::net::TcpListener::bind("127.0.0.1:0")?;
+/// let listen = other.local_addr()?;
+/// let options = Options { listen, tokens: Tokens::random()?, commands: false, view: String::new() };
+/// let told = Server::start(&Hub::new(About::default()), options).unwrap_err().to_string();
+/// assert!(told.starts_with(&format!("cannot listen on {listen}: ")), "{told}");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WebError {
@@ -56,6 +69,17 @@ pub enum WebError {
 }
 
 /// How the page is served.
+///
+/// ```
+/// use fingertip_bridges::web::{Options, Server, Tokens};
+/// use fingertip_bridges::{About, Hub};
+///
+/// // Anybody who has the token may watch, and nobody may command.
+/// let (listen, tokens) = ("127.0.0.1:0".parse()?, Tokens::random()?);
+/// let options = Options { listen, tokens, commands: false, view: String::new() };
+/// assert_eq!(Server::start(&Hub::new(About::default()), options)?.commanding(), None);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Where; port 0 is any free one.
@@ -69,6 +93,24 @@ pub struct Options {
 }
 
 /// What has happened so far.
+///
+/// ```
+/// use fingertip_bridges::web::{Options, Server, Tokens};
+/// use fingertip_bridges::{About, Hub};
+/// use std::io::{Read, Write};
+/// use std::net::TcpStream;
+///
+/// let (listen, tokens) = ("127.0.0.1:0".parse()?, Tokens::random()?);
+/// let options = Options { listen, tokens, commands: true, view: String::new() };
+/// let server = Server::start(&Hub::new(About::default()), options)?;
+/// // Somebody guesses a token.
+/// let (mut stranger, mut answer) = (TcpStream::connect(server.address())?, String::new());
+/// write!(stranger, "GET /?token=1234 HTTP/1.1\r\nHost: {}\r\n\r\n", server.address())?;
+/// stranger.read_to_string(&mut answer)?;
+/// assert!(answer.starts_with("HTTP/1.1 403"), "{answer}");
+/// assert_eq!((server.counts().refused, server.counts().streams), (1, 0));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Streams of samples that were begun.
@@ -98,6 +140,25 @@ struct Shared {
 }
 
 /// A server; it ends when it is dropped.
+///
+/// ```
+/// use fingertip_bridges::web::{Options, Server, Tokens};
+/// use fingertip_bridges::{About, Hub};
+/// use std::io::{Read, Write};
+/// use std::net::TcpStream;
+///
+/// let (listen, tokens) = ("127.0.0.1:0".parse()?, Tokens::random()?);
+/// let options = Options { listen, tokens, commands: true, view: String::new() };
+/// let server = Server::start(&Hub::new(About::default()), options)?;
+/// // What a browser asks for that opens the address for those who watch.
+/// let (address, page) = (server.address(), server.watching());
+/// let path = page.strip_prefix(&format!("http://{address}")).unwrap();
+/// let (mut browser, mut answer) = (TcpStream::connect(address)?, String::new());
+/// write!(browser, "GET {path} HTTP/1.1\r\nHost: {address}\r\n\r\n")?;
+/// browser.read_to_string(&mut answer)?;
+/// assert!(answer.starts_with("HTTP/1.1 200 OK"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Server {
     shared: Arc<Shared>,

@@ -11,6 +11,17 @@ use thiserror::Error;
 const BYTES: usize = 16;
 
 /// A secret for those who watch, and one for who commands. They are not told by `Debug`.
+///
+/// ```
+/// use fingertip_bridges::web::Tokens;
+///
+/// let tokens = Tokens::random()?;
+/// assert_eq!(tokens.watch().len(), 32);
+/// assert_ne!(tokens.watch(), tokens.command());
+/// // Logs do not tell them.
+/// assert!(!format!("{tokens:?}").contains(tokens.watch()));
+/// # Ok::<(), fingertip_bridges::web::TokensError>(())
+/// ```
 #[derive(Clone, PartialEq, Eq)]
 pub struct Tokens {
     watch: String,
@@ -18,6 +29,19 @@ pub struct Tokens {
 }
 
 /// Why there are no tokens.
+///
+/// ```
+/// use fingertip_bridges::web::Tokens;
+///
+/// let folder = tempfile::tempdir()?;
+/// let file = folder.path().join("tokens");
+/// // Made at first, and the same after that.
+/// assert_eq!(Tokens::kept(&file)?, Tokens::kept(&file)?);
+/// std::fs::write(&file, "secret\n")?;
+/// let told = Tokens::kept(&file).unwrap_err().to_string();
+/// assert!(told.contains("does not hold tokens: two lines, each of 32 digits and letters a to f"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TokensError {

@@ -5,6 +5,21 @@ use fingertip_wrench::Real;
 use super::circuit::BridgeCircuit;
 
 /// Where the excitation of the bridges is known from.
+///
+/// ```
+/// use fingertip_drivers::bridge::{BridgeChannel, BridgeCircuit, BridgeFrontEnd, CountScale, Excitation};
+/// use nalgebra::Vector2;
+///
+/// // The bridge is at input 0, and its excitation, over a divider, at input 1.
+/// let bridge = BridgeChannel::new(0, BridgeCircuit::full(), 2.0, CountScale::bits24(1.2 / 32.0));
+/// let excitation = Excitation::Measured { channel: 1, volts_per_count: 0.6e-6 };
+/// let front_end = BridgeFrontEnd::<f64, 1, 2>::new([bridge], excitation)?;
+/// // The same strain from 3.0 V as from a battery that has sunk to 2.7 V.
+/// let fresh = front_end.strain(&Vector2::new(1e6, 5e6))?;
+/// let sunk = front_end.strain(&Vector2::new(0.9e6, 4.5e6))?;
+/// assert!((fresh - sunk).amax() < 1e-15 && (fresh.x - 745e-6).abs() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Excitation<T> {
     /// The reference of the converter is taken from it, so that its drift falls out. Full scales are then
@@ -26,6 +41,14 @@ pub enum Excitation<T> {
 }
 
 /// What the counts of an input are.
+///
+/// ```
+/// use fingertip_drivers::bridge::CountScale;
+///
+/// // An HX711 at gain 128, with the excitation as its reference: a count is half a nanovolt per volt.
+/// let scale = CountScale::bits24(0.5 / 128.0);
+/// assert!((scale.full_scale / scale.full_scale_counts - 0.466e-9_f64).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountScale<T> {
     /// Counts at full scale: 2²³ for a converter of 24 bits and two signs. A count beyond the last but one
@@ -47,6 +70,21 @@ impl<T: Real> CountScale<T> {
 }
 
 /// One bridge at one input of a converter.
+///
+/// ```
+/// use fingertip_drivers::bridge::{BridgeChannel, BridgeCircuit, BridgeFrontEnd, CountScale, Excitation};
+/// use nalgebra::Vector1;
+///
+/// // Two gauges on a beam, whose factor is 2.1 within 1 %.
+/// let beam = BridgeChannel::new(0, BridgeCircuit::half_bending(), 2.1, CountScale::bits24(0.5 / 128.0))
+///     .gauge_factor_within(0.01);
+/// let front_end = BridgeFrontEnd::<f64, 1, 1>::new([beam], Excitation::Reference)?;
+/// let strains = front_end.strain_with_bounds(&Vector1::new(1e6))?;
+/// // Ratio 0.466 mV/V, half a gauge's change, over the factor; and 1 % of that.
+/// assert!((strains.strain.x - 443.5e-6).abs() < 0.1e-6);
+/// assert!((strains.scale_error.x - 4.5e-6).abs() < 0.1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BridgeChannel<T> {
     /// Index of the converter's channel.

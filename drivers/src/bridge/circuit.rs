@@ -4,6 +4,13 @@ use fingertip_wrench::Real;
 use thiserror::Error;
 
 /// A Poisson ratio that no material of a sensor has.
+///
+/// ```
+/// use fingertip_drivers::bridge::BridgeCircuit;
+///
+/// let refused = BridgeCircuit::<f64>::full_poisson(0.7).unwrap_err();
+/// assert_eq!(refused.to_string(), "a Poisson ratio lies between 0 and 0.5, not at 0.7");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("a Poisson ratio lies between 0 and 0.5, not at {found}")]
 pub struct BadPoissonRatio {

@@ -11,6 +11,19 @@ use crate::polled::NbSource;
 use crate::{AsyncSource, Sample, Source, SourceError, SourceErrorKind};
 
 /// Why there is no strain.
+///
+/// Its kind is that of the fault within it:
+///
+/// ```
+/// use fingertip_drivers::bridge::{BridgeFault, BridgedError};
+/// use fingertip_drivers::converters::ConverterFault;
+/// use fingertip_drivers::{SourceError, SourceErrorKind};
+///
+/// let late = BridgedError::Source(ConverterFault::Timeout);
+/// let broken = BridgedError::<ConverterFault>::from(BridgeFault::NoExcitation);
+/// assert_eq!((late.kind(), broken.kind()), (SourceErrorKind::Timeout, SourceErrorKind::DeviceFault));
+/// assert_eq!(broken.to_string(), "there is no excitation");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BridgedError<E> {
@@ -32,6 +45,28 @@ impl<E: SourceError> SourceError for BridgedError<E> {
 }
 
 /// Strains \[m/m\] of `N` bridges from a source of the counts of `M` channels.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::bridge::{
+///     BridgeChannel, BridgeCircuit, BridgeFrontEnd, Bridged, CountScale, Excitation,
+/// };
+/// use fingertip_drivers::converters::hx711::{Hx711, Mode, SimulatedHx711s};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// // A full bridge that gives 0.5 mV/V, at a chip.
+/// let bench = SimulatedBench::new(SimulatedHx711s::new(|_| [(0.5e-3, 0.0)]), WireFaults::default());
+/// let (clock, data, delay) = (bench.clock(), bench.data(), bench.delay());
+/// let mut chip = Hx711::new(clock, data, delay, Mode::A128, Patience::default());
+/// chip.start()?;
+///
+/// let scale = CountScale::bits24(Mode::A128.full_scale());
+/// let bridge = BridgeChannel::new(0, BridgeCircuit::full(), 2.0, scale);
+/// let front_end = BridgeFrontEnd::<f64, 1, 1>::new([bridge], Excitation::Reference)?;
+/// let sample = Bridged::new(chip, front_end).next_sample()?.unwrap();
+/// assert!((sample.value.x - 250e-6).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Bridged<S, T, const N: usize, const M: usize> {
     source: S,

@@ -6,6 +6,16 @@ use nalgebra::SVector;
 use super::error::ConverterFault;
 
 /// The counts of `N` channels that belong together.
+///
+/// ```
+/// use fingertip_drivers::converters::Conversion;
+///
+/// // Channel 1 is at an end of 24 bits, so that no wrench can come of it.
+/// let conversion = Conversion::clipped([12, 8_388_607], -8_388_608, 8_388_607);
+/// assert_eq!(conversion.saturated, [false, true]);
+/// let told = conversion.signals::<f64>().unwrap_err().to_string();
+/// assert_eq!(told, "channel 1 is at an end of the converter's range");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Conversion<const N: usize> {
     /// Signed counts.
@@ -41,6 +51,22 @@ impl<const N: usize> Conversion<N> {
 }
 
 /// How a converter has behaved so far.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, SimulatedAds131m};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.001; 4]), WireFaults::default());
+/// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::<4>::default())?;
+/// // From now on a bit of one answer in ten is flipped on the wire.
+/// bench.set_faults(WireFaults { answer_flip: 0.1, ..WireFaults::default() });
+/// let read = core::iter::repeat_with(|| converter.read()).take(200).filter(Result::is_ok).count();
+/// let statistics = converter.statistics();
+/// assert_eq!((statistics.conversions, statistics.corrupt), (read as u64, 200 - read as u64));
+/// assert!(read < 200);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ConverterStatistics {

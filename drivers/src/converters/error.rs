@@ -7,6 +7,15 @@ use thiserror::Error;
 use crate::{SourceError, SourceErrorKind};
 
 /// What can be wrong with what a converter answers, without regard to how it is wired.
+///
+/// ```
+/// use fingertip_drivers::converters::ConverterFault;
+/// use fingertip_drivers::{SourceError, SourceErrorKind};
+///
+/// let fault = ConverterFault::Register { address: 0x04, expected: 0x55, found: 0xFF };
+/// assert_eq!(fault.to_string(), "register 0x04 holds 0xff where 0x55 was written");
+/// assert_eq!(fault.kind(), SourceErrorKind::Corrupt);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ConverterFault {
@@ -83,6 +92,20 @@ impl SourceError for ConverterFault {
 }
 
 /// Why a converter has no sample to give. `B` is the error of the bus, `P` that of the pin.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, SimulatedAds131m};
+/// use fingertip_drivers::converters::{Level, Patience, SimulatedBench, WireFaults};
+///
+/// // The pin "ready" has come off.
+/// let off = WireFaults { stuck_ready: Some(Level::High), ..WireFaults::default() };
+/// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.001; 4]), off);
+/// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::<4>::default())?;
+/// let told = "the converter did not become ready in time; is its clock running, and the pin wired?";
+/// assert_eq!(converter.read().unwrap_err().to_string(), told);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ConverterError<B, P> {

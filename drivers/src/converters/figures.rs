@@ -3,6 +3,14 @@
 use thiserror::Error;
 
 /// Where the full scale of a converter comes from.
+///
+/// ```
+/// use fingertip_drivers::converters::ReferenceSource;
+/// use fingertip_drivers::devices;
+///
+/// let figures = devices::devices().iter().find(|device| device.name == "hx711").unwrap().converter.unwrap();
+/// assert_eq!(figures.reference, ReferenceSource::Supply { least: 2.6, greatest: 5.5 });
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ReferenceSource {
@@ -28,6 +36,14 @@ pub enum ReferenceSource {
 }
 
 /// One of the rates of a converter.
+///
+/// ```
+/// use fingertip_drivers::devices;
+///
+/// // An HX711 that changes its input has to settle for four conversions.
+/// let figures = devices::devices().iter().find(|device| device.name == "hx711").unwrap().converter.unwrap();
+/// assert!(figures.rates.iter().all(|rate| rate.settled == rate.conversions / 4.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateFigure {
     /// Conversions of one input a second \[Hz\]: what the setting is called by.
@@ -37,6 +53,15 @@ pub struct RateFigure {
 }
 
 /// The noise that a data sheet states for a gain and a rate.
+///
+/// ```
+/// use fingertip_drivers::devices;
+///
+/// // At gain 128 the data sheet of an HX711 states 50 nV at 10 Hz, and 90 nV at 80 Hz.
+/// let figures = devices::devices().iter().find(|device| device.name == "hx711").unwrap().converter.unwrap();
+/// let volts: Vec<_> = figures.noise.iter().map(|noise| (noise.conversions, noise.volts)).collect();
+/// assert_eq!(volts, [(10.0, 50e-9), (80.0, 90e-9)]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseFigure {
     /// The gain.
@@ -48,6 +73,25 @@ pub struct NoiseFigure {
 }
 
 /// What a converter can be set to.
+///
+/// [`devices`](crate::devices::devices) has those of each chip. Which of them give 1000 samples of six bridges a
+/// second, and how many chips does it take?
+///
+/// ```
+/// use fingertip_drivers::converters::BridgeDemand;
+/// use fingertip_drivers::devices;
+///
+/// let demand = BridgeDemand { bridges: 6, supply: 3.3, greatest_ratio: 0.003, rate: 1000.0 };
+/// let mut quick: Vec<_> = devices::devices()
+///     .iter()
+///     .filter_map(|device| {
+///         let setting = device.converter?.setting(&demand).ok()?;
+///         (setting.samples >= demand.rate).then_some((device.name, setting.chips))
+///     })
+///     .collect();
+/// quick.sort();
+/// assert_eq!(quick, [("ads1256", 2), ("ads131m", 1), ("mcp3564", 2)]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConverterFigures {
     /// The gains, rising.
@@ -67,6 +111,18 @@ pub struct ConverterFigures {
 }
 
 /// What bridges ask of a converter.
+///
+/// ```
+/// use fingertip_drivers::converters::BridgeDemand;
+/// use fingertip_drivers::devices;
+///
+/// // Bridges that give up to 10 mV/V do not bear the greatest gain, at which full scale is 3.9 mV/V.
+/// let figures = devices::devices().iter().find(|device| device.name == "hx711").unwrap().converter.unwrap();
+/// let demand = BridgeDemand { bridges: 6, supply: 3.3, greatest_ratio: 0.010, rate: 10.0 };
+/// assert_eq!(figures.setting(&demand)?.gain, 32.0);
+/// assert_eq!(figures.setting(&BridgeDemand { greatest_ratio: 0.003, ..demand })?.gain, 128.0);
+/// # Ok::<(), fingertip_drivers::converters::UnsuitableConverter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BridgeDemand {
     /// Bridges, one for the dummy included.
@@ -81,6 +137,19 @@ pub struct BridgeDemand {
 }
 
 /// The settings of a converter for bridges, and what is to be expected of it.
+///
+/// ```
+/// use fingertip_drivers::converters::BridgeDemand;
+/// use fingertip_drivers::devices;
+///
+/// let figures = devices::devices().iter().find(|device| device.name == "hx711").unwrap().converter.unwrap();
+/// let demand = BridgeDemand { bridges: 6, supply: 3.3, greatest_ratio: 0.003, rate: 10.0 };
+/// let setting = figures.setting(&demand)?;
+/// assert_eq!((setting.chips, setting.gain, setting.samples), (6, 128.0, 10.0));
+/// // 1 mV/V is a quarter of the range.
+/// assert!((setting.counts_per_ratio() * 0.001 - 2_147_483.6).abs() < 0.1);
+/// # Ok::<(), fingertip_drivers::converters::UnsuitableConverter>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BridgeSetting {
     /// How many chips it takes.
@@ -103,6 +172,16 @@ pub struct BridgeSetting {
 }
 
 /// Why a converter does not suit bridges.
+///
+/// ```
+/// use fingertip_drivers::converters::BridgeDemand;
+/// use fingertip_drivers::devices;
+///
+/// let figures = devices::devices().iter().find(|device| device.name == "hx711").unwrap().converter.unwrap();
+/// let demand = BridgeDemand { bridges: 6, supply: 10.0, greatest_ratio: 0.003, rate: 10.0 };
+/// let told = figures.setting(&demand).unwrap_err().to_string();
+/// assert_eq!(told, "it needs a supply of 2.6 to 5.5 V, not of 10 V");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum UnsuitableConverter {

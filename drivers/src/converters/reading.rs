@@ -3,6 +3,14 @@
 use super::conversion::{Conversion, sign_extended};
 
 /// A conversion: three bytes, the highest first, in two's complement.
+///
+/// ```
+/// use fingertip_drivers::converters::Reading;
+///
+/// assert_eq!(Reading::parse([0xFF, 0xFF, 0xFE]).counts, -2);
+/// assert_eq!(Reading { counts: 258 }.emit(), [0, 1, 2]);
+/// assert_eq!(Reading::parse([0x7F, 0xFF, 0xFF]).conversion().saturated, [true]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
     /// Counts of 24 bits.

@@ -10,6 +10,13 @@ use embedded_hal::digital::{ErrorType, InputPin};
 use embedded_hal_async::digital::Wait;
 
 /// How long to wait for a converter.
+///
+/// ```
+/// use fingertip_drivers::converters::Patience;
+///
+/// // For a converter of 1 kHz: some of its periods, looked at every 10 µs.
+/// assert_eq!(Patience { limit: 5000, pause: 10 }.looks(), 501);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patience {
     /// Longest wait \[µs\]: some periods of the converter.
@@ -34,6 +41,19 @@ impl Default for Patience {
 }
 
 /// In place of a "ready" pin that is not wired: it always says that it may be worth asking.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, SimulatedAds131m};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, Unwired, WireFaults};
+///
+/// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.15; 2]), WireFaults::default());
+/// let mut converter = Ads131m::new(bench.spi(), Unwired, bench.delay(), Patience::default());
+/// converter.configure(&Configuration::<2>::default())?;
+/// assert_eq!(converter.read()?.counts, [1_048_576; 2]);
+/// // It was asked over the bus until it had one.
+/// assert!(converter.statistics().stale > 0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unwired;
 

@@ -1,19 +1,32 @@
 //! A bench with a simulated converter on it: bus, pin and time, with faults.
 
+mod delay;
+mod line;
+
 use alloc::sync::Arc;
 use core::convert::Infallible;
-use core::future::Future;
-use core::pin::Pin;
-use core::task::{Context, Poll};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use embedded_hal::digital::{self, InputPin};
 use embedded_hal::spi::{self, Operation, SpiDevice};
-use embedded_hal_async::digital::Wait;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+pub use self::delay::SimulatedDelay;
+pub use self::line::SimulatedLine;
+
 /// A line that is held at a level, whatever drives it.
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Mcp3564, SimulatedMcp3564};
+/// use fingertip_drivers::converters::{Level, Patience, SimulatedBench, WireFaults};
+///
+/// // The data line is shorted to ground.
+/// let shorted = WireFaults { stuck_data: Some(Level::Low), ..WireFaults::default() };
+/// let bench = SimulatedBench::new(SimulatedMcp3564::new(false, |_, _| 0.25), shorted);
+/// let mut converter = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+/// let refused = converter.configure(&Configuration::new([Channel::PairA])).unwrap_err();
+/// assert!(refused.to_string().ends_with("is it this chip, wired and powered?"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// At ground.
@@ -23,6 +36,21 @@ pub enum Level {
 }
 
 /// What the wiring does: probabilities between 0 and 1.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, SimulatedAds131m};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// // One "ready" in five does not come: conversions are missed, and those that come are right.
+/// let faults = WireFaults { lost_ready: 0.2, seed: 3, ..WireFaults::default() };
+/// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.15; 2]), faults);
+/// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::<2>::default())?;
+/// for _ in 0..100 {
+///     assert_eq!(converter.read()?.counts, [1_048_576; 2]);
+/// }
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WireFaults {
     /// One bit of what the device sends in a transaction is flipped.
@@ -40,6 +68,29 @@ pub struct WireFaults {
 }
 
 /// A device that can be put on a [`SimulatedBench`]. One that is on SPI, with a "ready" line, says the rest, too.
+///
+/// A device of one's own, a shift register that gives back each byte one later:
+///
+/// ```
+/// use embedded_hal::spi::SpiDevice;
+/// use fingertip_drivers::converters::{SimulatedBench, SimulatedDevice, WireFaults};
+///
+/// struct Echo(u8);
+///
+/// impl SimulatedDevice for Echo {
+///     fn advance(&mut self, _: u64) {}
+///
+///     fn shift(&mut self, byte: u8) -> u8 {
+///         core::mem::replace(&mut self.0, byte)
+///     }
+/// }
+///
+/// let bench = SimulatedBench::new(Echo(0), WireFaults::default());
+/// let mut bytes = [1, 2, 3];
+/// bench.spi().transfer_in_place(&mut bytes)?;
+/// assert_eq!(bytes, [0, 1, 2]);
+/// # Ok::<(), core::convert::Infallible>(())
+/// ```
 pub trait SimulatedDevice {
     /// Time goes on by so much \[ns\].
     fn advance(&mut self, nanoseconds: u64);
@@ -168,6 +219,21 @@ impl<D: SimulatedDevice> Inner<D> {
 
 /// A converter with its bus, its pin and its time. Its parts are handles on the same bench: give them to
 /// a driver and keep one to set the input and to look.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Nau7802, SimulatedNau7802};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// // The load changes after a second of the bench's time.
+/// let chip = SimulatedNau7802::new(|time, _| if time < 1.0 { 0.0 } else { 1e-3 });
+/// let bench = SimulatedBench::new(chip, WireFaults::default());
+/// let mut converter = Nau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::default())?;
+/// assert_eq!(converter.read()?.counts, [0]);
+/// bench.advance(1_000_000_000);
+/// assert_eq!(converter.read()?.counts, [2_147_484]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct SimulatedBench<D> {
     inner: Arc<Mutex<Inner<D>>>,
@@ -240,6 +306,21 @@ impl<D: SimulatedDevice> SimulatedBench<D> {
 }
 
 /// The SPI of a [`SimulatedBench`], blocking and for tasks.
+///
+/// ```
+/// use embedded_hal::spi::Operation;
+/// use embedded_hal::spi::SpiDevice;
+/// use fingertip_drivers::converters::ads1256::{Command, Register, SimulatedAds1256};
+/// use fingertip_drivers::converters::{SimulatedBench, WireFaults};
+///
+/// let bench = SimulatedBench::new(SimulatedAds1256::new(|_, _, _| 0.0), WireFaults::default());
+/// // Read DRATE, with a pause (t6) before the answer: 30 000 Hz after a reset.
+/// let (request, mut rate) = ([Command::ReadRegisters { address: Register::DRATE }.emit(), 0], [0]);
+/// let mut operations = [Operation::Write(&request), Operation::DelayNs(7000), Operation::Read(&mut rate)];
+/// bench.spi().transaction(&mut operations)?;
+/// assert_eq!(rate, [0xF0]);
+/// # Ok::<(), core::convert::Infallible>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SimulatedSpi<D>(SimulatedBench<D>);
 
@@ -258,121 +339,5 @@ impl<D: SimulatedDevice> embedded_hal_async::spi::SpiDevice for SimulatedSpi<D> 
     async fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), Infallible> {
         self.0.lock().transaction(operations);
         Ok(())
-    }
-}
-
-/// A line that a device on a [`SimulatedBench`] drives, to be looked at or waited for.
-#[derive(Clone, Debug)]
-pub struct SimulatedLine<D> {
-    bench: SimulatedBench<D>,
-    is_high: fn(&mut Inner<D>, usize) -> bool,
-    index: usize,
-}
-
-impl<D: SimulatedDevice> SimulatedLine<D> {
-    /// The line of that index, whose level is read from the bench.
-    pub(crate) const fn new(
-        bench: SimulatedBench<D>,
-        is_high: fn(&mut Inner<D>, usize) -> bool,
-        index: usize,
-    ) -> Self {
-        Self { bench, is_high, index }
-    }
-
-    fn level(&self) -> bool {
-        (self.is_high)(&mut self.bench.lock(), self.index)
-    }
-
-    /// Each time that a task looks in vain, a microsecond goes by.
-    async fn until(&self, high: bool) {
-        core::future::poll_fn(|context| {
-            if self.level() == high {
-                return Poll::Ready(());
-            }
-            self.bench.advance(1000);
-            context.waker().wake_by_ref();
-            Poll::Pending
-        })
-        .await;
-    }
-}
-
-impl<D> digital::ErrorType for SimulatedLine<D> {
-    type Error = Infallible;
-}
-
-impl<D: SimulatedDevice> InputPin for SimulatedLine<D> {
-    fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(self.level())
-    }
-
-    fn is_low(&mut self) -> Result<bool, Infallible> {
-        Ok(!self.level())
-    }
-}
-
-impl<D: SimulatedDevice> Wait for SimulatedLine<D> {
-    async fn wait_for_high(&mut self) -> Result<(), Infallible> {
-        self.until(true).await;
-        Ok(())
-    }
-
-    async fn wait_for_low(&mut self) -> Result<(), Infallible> {
-        self.until(false).await;
-        Ok(())
-    }
-
-    async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
-        self.until(false).await;
-        self.until(true).await;
-        Ok(())
-    }
-
-    async fn wait_for_falling_edge(&mut self) -> Result<(), Infallible> {
-        self.until(true).await;
-        self.until(false).await;
-        Ok(())
-    }
-
-    async fn wait_for_any_edge(&mut self) -> Result<(), Infallible> {
-        let now = self.level();
-        self.until(!now).await;
-        Ok(())
-    }
-}
-
-/// The delay of a [`SimulatedBench`].
-#[derive(Clone, Debug)]
-pub struct SimulatedDelay<D>(SimulatedBench<D>);
-
-impl<D: SimulatedDevice> embedded_hal::delay::DelayNs for SimulatedDelay<D> {
-    fn delay_ns(&mut self, nanoseconds: u32) {
-        self.0.advance(u64::from(nanoseconds));
-    }
-}
-
-/// Time goes on by a microsecond each time that it is asked for, so that other futures are asked, too.
-struct Pause<'a, D> {
-    bench: &'a SimulatedBench<D>,
-    until: u64,
-}
-
-impl<D: SimulatedDevice> Future for Pause<'_, D> {
-    type Output = ();
-
-    fn poll(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<()> {
-        let now = self.bench.now();
-        if now >= self.until {
-            return Poll::Ready(());
-        }
-        self.bench.advance((self.until - now).min(1000));
-        context.waker().wake_by_ref();
-        Poll::Pending
-    }
-}
-
-impl<D: SimulatedDevice> embedded_hal_async::delay::DelayNs for SimulatedDelay<D> {
-    async fn delay_ns(&mut self, nanoseconds: u32) {
-        Pause { bench: &self.0, until: self.0.now() + u64::from(nanoseconds) }.await;
     }
 }

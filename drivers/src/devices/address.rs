@@ -8,6 +8,14 @@ use thiserror::Error;
 use super::device::{Device, Link};
 
 /// What is wrong with an address. Each message names what the user wrote.
+///
+/// ```
+/// use fingertip_drivers::devices::{Address, devices};
+///
+/// let told = |address| Address::parse(address, devices()).unwrap_err().to_string();
+/// assert_eq!(told("bota"), "where is the sensor? For example bota:///dev/ttyUSB0");
+/// assert_eq!(told("ati+tcp://192.168.1.1"), "ati has its own transport; leave out +tcp");
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AddressError {
@@ -78,6 +86,16 @@ pub enum AddressError {
 }
 
 /// An address, taken apart: `NAME://PLACE?KEY=VALUE&…`, or `NAME+tcp://HOST:PORT` for a serial device over TCP.
+///
+/// ```
+/// use fingertip_drivers::devices::{Address, devices};
+///
+/// let address = Address::parse("dynpick:///dev/ttyUSB0?counts_per_N=24.9&counts_per_Nm=1664", devices())?;
+/// assert_eq!((address.device().name, address.place()), ("dynpick", "/dev/ttyUSB0"));
+/// assert_eq!(address.positive("counts_per_N")?, Some(24.9));
+/// assert_eq!(address.option("baud"), None);
+/// # Ok::<(), fingertip_drivers::devices::AddressError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Address {
     text: String,

@@ -17,6 +17,16 @@ pub(crate) const WAIT: Duration = Duration::from_millis(200);
 pub(crate) const REPLY: Duration = Duration::from_secs(2);
 
 /// Why a sensor cannot be opened.
+///
+/// ```
+/// use fingertip_drivers::devices::{Address, devices, open};
+///
+/// let address = Address::parse("bota+tcp://127.0.0.1:1", devices())?;
+/// let told = open(&address).unwrap_err().to_string();
+/// assert!(told.starts_with("cannot connect to 127.0.0.1:1: "), "{told}");
+/// assert!(told.ends_with("; is the sensor's server running there?"));
+/// # Ok::<(), fingertip_drivers::devices::AddressError>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ConnectError {

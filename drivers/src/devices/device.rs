@@ -4,6 +4,14 @@ use super::simulator::Simulator;
 use crate::converters::ConverterFigures;
 
 /// What a device is connected by.
+///
+/// ```
+/// use fingertip_drivers::devices::{Link, devices};
+///
+/// let on_ethernet: Vec<_> =
+///     devices().iter().filter(|device| device.link == Link::Ethernet).map(|device| device.name).collect();
+/// assert_eq!(on_ethernet, ["ati", "onrobot", "schunk"]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Link {
@@ -39,6 +47,14 @@ impl Link {
 }
 
 /// What an address can say of a device behind its question mark.
+///
+/// ```
+/// use fingertip_drivers::devices::devices;
+///
+/// let dynpick = devices().iter().find(|device| device.name == "dynpick").unwrap();
+/// let keys: Vec<_> = dynpick.all_options().map(|option| option.key).collect();
+/// assert_eq!(keys, ["counts_per_N", "counts_per_Nm", "baud"]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeviceOption {
     /// Its name, with its unit.
@@ -66,6 +82,16 @@ impl DeviceOption {
 }
 
 /// What is known of a kind of device beforehand.
+///
+/// ```
+/// use fingertip_drivers::devices::devices;
+///
+/// // What a help text has to say of a sensor.
+/// let resense = devices().iter().find(|device| device.name == "resense").unwrap();
+/// assert_eq!(resense.title, "Resense HEX");
+/// let example = resense.example().unwrap();
+/// assert_eq!(example, "resense:///dev/ttyUSB0?greatest_N=200&greatest_Nm=10");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Device {
     /// The name by which an address begins, and that of its feature for a converter.

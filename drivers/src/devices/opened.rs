@@ -9,6 +9,18 @@ use super::Losses;
 use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why an open sensor has no sample to give.
+///
+/// Nothing is at this address:
+///
+/// ```
+/// use fingertip_drivers::devices::{Address, devices, open};
+/// use fingertip_drivers::{Source, SourceError, SourceErrorKind};
+///
+/// let address = Address::parse("ati://127.0.0.1:9?counts_per_N=1e6&counts_per_Nm=1e6", devices())?;
+/// let fault = open(&address)?.next_sample().unwrap_err();
+/// assert!(matches!(fault.kind(), SourceErrorKind::Timeout | SourceErrorKind::Transport), "{fault}");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct SensorFault {
     kind: SourceErrorKind,
@@ -45,6 +57,33 @@ impl SourceError for SensorFault {
 
 /// A sensor that streams, or is asked for each reading. A call waits for a fraction of a second at most: silence is
 /// an error of the kind [`Timeout`](SourceErrorKind::Timeout), after which the next call goes on.
+///
+/// On a sensor that is simulated in this program:
+///
+/// ```
+/// use core::net::Ipv4Addr;
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::devices::{Address, Serving, Simulator, devices, open};
+/// use fingertip_drivers::sensors::FaultPlan;
+///
+/// let ati = devices().iter().find(|device| device.name == "ati").unwrap();
+/// let Some(Simulator::Network(serve)) = ati.simulator else { unreachable!("it is on a network") };
+/// let served = serve(Serving {
+///     listen: Ipv4Addr::LOCALHOST.into(),
+///     port: Some(0),
+///     http_port: 0,
+///     udp_port: 0,
+///     faults: FaultPlan::default(),
+///     rate: 1000.0,
+///     load: Box::new(|_| [0.0, 0.0, -2.0, 0.0, 0.0, 0.0]),
+/// })?;
+///
+/// let mut sensor = open(&Address::parse(served.address(), devices())?)?;
+/// let sample = sensor.next_sample()?.unwrap();
+/// assert!((sample.value.force().z + 2.0).abs() < 1e-6);
+/// assert_eq!(sensor.losses().corrupt, 0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub struct OpenSensor(Box<dyn Opened>);
 
 impl fmt::Debug for OpenSensor {

@@ -10,6 +10,14 @@ use crate::sensors::line::SerialDevice;
 use crate::sensors::{FaultPlan, LinkStatistics};
 
 /// How a device is simulated.
+///
+/// ```
+/// use fingertip_drivers::devices::{Simulator, devices};
+///
+/// // Sensors that can be simulated on a serial port.
+/// let serial = devices().iter().filter(|device| matches!(device.simulator, Some(Simulator::Serial(_))));
+/// assert!(serial.map(|device| device.name).eq(["bota", "robotous", "dynpick", "optoforce", "resense"]));
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Simulator {
@@ -25,6 +33,22 @@ pub enum Simulator {
 
 /// A simulated sensor for a serial line, to be put into a
 /// [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::devices::{Simulator, devices};
+/// use fingertip_drivers::sensors::bota_serial::BotaDecoder;
+/// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
+///
+/// let bota = devices().iter().find(|device| device.name == "bota").unwrap();
+/// let Some(Simulator::Serial(make)) = bota.simulator else { unreachable!("it is on a serial port") };
+/// let mut sensor =
+///     LineSensor::new(SimulatedSerial::new(make(1000.0).device, LineFaults::default()), BotaDecoder::new());
+/// sensor.line_mut().sample([0.0, 0.0, -2.0, 0.0, 0.0, 0.0]);
+/// let force: f64 = sensor.next_sample()?.unwrap().value.force().z;
+/// assert_eq!(force, -2.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub struct SerialSimulator {
     /// What it says.
     pub device: SerialDevice,
@@ -33,6 +57,28 @@ pub struct SerialSimulator {
 }
 
 /// Where and how a simulated sensor is to be served on a network.
+///
+/// [`OpenSensor`](super::OpenSensor) has one whose samples are read. One on a bad link:
+///
+/// ```
+/// use core::net::Ipv4Addr;
+/// use fingertip_drivers::devices::{Serving, Simulator, devices};
+/// use fingertip_drivers::sensors::FaultPlan;
+///
+/// let ati = devices().iter().find(|device| device.name == "ati").unwrap();
+/// let Some(Simulator::Network(serve)) = ati.simulator else { unreachable!("it is on a network") };
+/// let served = serve(Serving {
+///     listen: Ipv4Addr::LOCALHOST.into(),
+///     port: Some(0),
+///     http_port: 0,
+///     udp_port: 0,
+///     faults: FaultPlan { loss: 0.1, ..FaultPlan::default() },
+///     rate: 1000.0,
+///     load: Box::new(|number| [0.0, 0.0, -1e-3 * number as f64, 0.0, 0.0, 0.0]),
+/// })?;
+/// assert!(served.address().starts_with("ati://127.0.0.1:"));
+/// # Ok::<(), fingertip_drivers::devices::ServeError>(())
+/// ```
 pub struct Serving {
     /// The local address; the loopback interface unless you know what you do.
     pub listen: IpAddr,
@@ -66,6 +112,26 @@ fn mend(source: &io::Error, port: &'static str) -> &'static str {
 }
 
 /// Why a simulated sensor cannot be served.
+///
+/// ```
+/// use core::net::Ipv4Addr;
+/// use fingertip_drivers::devices::{Serving, Simulator, devices};
+/// use fingertip_drivers::sensors::FaultPlan;
+///
+/// // The port is taken.
+/// let other = std::net::UdpSocket::bind("127.0.0.1:0")?;
+/// let port = other.local_addr()?.port();
+/// let ati = devices().iter().find(|device| device.name == "ati").unwrap();
+/// let Some(Simulator::Network(serve)) = ati.simulator else { unreachable!("it is on a network") };
+/// let (listen, faults) = (Ipv4Addr::LOCALHOST.into(), FaultPlan::default());
+/// let load = Box::new(|_| [0.0; 6]);
+/// let refused =
+///     serve(Serving { listen, port: Some(port), http_port: 0, udp_port: 0, faults, rate: 1e3, load });
+/// let told = refused.err().unwrap().to_string();
+/// assert!(told.starts_with(&format!("cannot serve on UDP port {port}: ")));
+/// assert!(told.ends_with("; choose another --port, 0 for any free one"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ServeError {
@@ -90,6 +156,18 @@ pub enum ServeError {
 }
 
 /// What a served sensor did.
+///
+/// [`NetworkSimulator::stop`] says so:
+///
+/// ```
+/// use fingertip_drivers::devices::Served;
+/// use fingertip_drivers::sensors::LinkStatistics;
+///
+/// let mut injected = LinkStatistics::default();
+/// injected.lost = 25;
+/// let served = Served { sent: 1000, injected };
+/// assert_eq!(served.injected.lost as f64 / served.sent as f64, 0.025);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Served {
     /// Datagrams that were sent.
@@ -99,6 +177,26 @@ pub struct Served {
 }
 
 /// A simulated sensor that serves in a thread of its own, until it is stopped or dropped.
+///
+/// ```
+/// use core::net::Ipv4Addr;
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::devices::{Address, Serving, Simulator, devices, open};
+/// use fingertip_drivers::sensors::FaultPlan;
+///
+/// let ati = devices().iter().find(|device| device.name == "ati").unwrap();
+/// let Some(Simulator::Network(serve)) = ati.simulator else { unreachable!("it is on a network") };
+/// let (listen, faults) = (Ipv4Addr::LOCALHOST.into(), FaultPlan::default());
+/// let load = Box::new(|_| [0.0; 6]);
+/// let served =
+///     serve(Serving { listen, port: Some(0), http_port: 0, udp_port: 0, faults, rate: 1e3, load })?;
+/// let mut sensor = open(&Address::parse(served.address(), devices())?)?;
+/// for _ in 0..10 {
+///     sensor.next_sample()?;
+/// }
+/// assert!(served.stop().unwrap().sent >= 10);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub struct NetworkSimulator {
     address: String,
     stop: Box<dyn FnOnce() -> Option<Served> + Send>,

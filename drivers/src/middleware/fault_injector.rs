@@ -10,6 +10,25 @@ use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// What happens to samples: probabilities between 0 and 1, taken in this order; at most one happens
 /// to a sample.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::middleware::{FaultInjector, SampleFaults};
+/// use fingertip_drivers::playback::WrenchPlayback;
+/// use fingertip_recordings::RecordingReader;
+///
+/// let rows: String = (0..100).map(|time| format!("{time},0,0,-1,0,0,0\n")).collect();
+/// let file = format!("time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n{rows}");
+/// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// // Spikes of 50 N, or 50 N·m, in one sample in ten.
+/// let faults = SampleFaults { spike: 0.1, spike_size: 50.0, ..SampleFaults::default() };
+/// let (mut source, mut spikes) = (FaultInjector::new(playback, faults), 0);
+/// while let Some(sample) = source.next_sample()? {
+///     spikes += u64::from(sample.value.components().amax() > 40.0);
+/// }
+/// assert!(spikes > 0 && spikes == source.injections().spikes);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampleFaults {
     /// The sample is lost.
@@ -35,6 +54,23 @@ pub struct SampleFaults {
 }
 
 /// What was done so far.
+///
+/// ```
+/// use fingertip_drivers::middleware::{FaultInjector, SampleFaults, Watched};
+/// use fingertip_drivers::playback::WrenchPlayback;
+/// use fingertip_recordings::RecordingReader;
+///
+/// let rows: String = (0..100).map(|time| format!("{time},0,0,-{time},0,0,0\n")).collect();
+/// let file = format!("time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n{rows}");
+/// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// // A watch notices every sample that was frozen.
+/// let faults = SampleFaults { freeze: 0.1, freeze_length: 3, ..SampleFaults::default() };
+/// let mut watched = Watched::new(FaultInjector::new(playback, faults), None);
+/// while watched.next_fresh(0.0)?.is_some() {}
+/// let injections = *watched.source().injections();
+/// assert!(injections.frozen > 0 && injections.frozen == watched.counts().repeated);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Injections {
@@ -55,6 +91,16 @@ pub struct Injections {
 }
 
 /// An error of the source, or one that was injected.
+///
+/// ```
+/// use fingertip_drivers::converters::ConverterFault;
+/// use fingertip_drivers::middleware::InjectedError;
+/// use fingertip_drivers::{SourceError, SourceErrorKind};
+///
+/// let injected = InjectedError::<ConverterFault>::Injected;
+/// assert_eq!(injected.kind(), SourceErrorKind::Corrupt);
+/// assert_eq!(injected.to_string(), "an injected fault: the sample is corrupt");
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum InjectedError<E> {
@@ -95,6 +141,25 @@ impl<T: Real, const N: usize> Components<T> for SVector<T, N> {
 }
 
 /// A source with faults. `V` is what it gives: `Wrench<T>`, or `SVector<T, N>` for signals.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::middleware::{FaultInjector, SampleFaults};
+/// use fingertip_drivers::playback::WrenchPlayback;
+/// use fingertip_recordings::RecordingReader;
+///
+/// let rows: String = (0..100).map(|time| format!("{time},0,0,-1,0,0,0\n")).collect();
+/// let file = format!("time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n{rows}");
+/// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// let faults = SampleFaults { loss: 0.2, ..SampleFaults::default() };
+/// let (mut source, mut given) = (FaultInjector::new(playback, faults), 0);
+/// while source.next_sample()?.is_some() {
+///     given += 1;
+/// }
+/// assert_eq!(given + source.injections().lost, 100);
+/// assert!(given < 100);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct FaultInjector<S, T, V> {
     source: S,

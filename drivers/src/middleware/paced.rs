@@ -12,6 +12,22 @@ use crate::{Sample, Source};
 ///
 /// Times are not changed. A sample without a time, one whose time goes back, and one behind a gap longer
 /// than [`LONGEST_WAIT`](Self::LONGEST_WAIT) are given at once, and time counts anew from there.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::middleware::Paced;
+/// use fingertip_drivers::playback::WrenchPlayback;
+/// use fingertip_recordings::RecordingReader;
+/// use std::time::{Duration, Instant};
+///
+/// // 40 ms of a recording, twice as fast.
+/// let file = "time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n7,0,0,-1,0,0,0\n7.04,0,0,-3,0,0,0\n";
+/// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// let (mut paced, start) = (Paced::new(playback, 2.0), Instant::now());
+/// while paced.next_sample()?.is_some() {}
+/// assert!(start.elapsed() >= Duration::from_millis(20));
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
+/// ```
 #[derive(Debug)]
 pub struct Paced<S> {
     source: S,

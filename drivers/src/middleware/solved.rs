@@ -8,6 +8,23 @@ use crate::{AsyncSource, Sample, Source};
 
 /// Wrenches from the signals of `N` gauges: tare (or another compensation) and solver around any source of
 /// signals, so that a converter with a calibration is a force/torque sensor like any other.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::middleware::Solved;
+/// use fingertip_drivers::playback::SignalPlayback;
+/// use fingertip_recordings::RecordingReader;
+/// use fingertip_wrench::{GaussianElimination, SensorMatrix, Tare};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let file = "s1_V,s2_V,s3_V,s4_V,s5_V,s6_V\n0.5,0.5,2.5,0.5,0.5,0.5\n";
+/// let signals = SignalPlayback::<_, 6>::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// // Gauges that give the components of the wrench, a volt a newton, and half a volt at rest.
+/// let solver = GaussianElimination::new(&SensorMatrix::new(Matrix6::identity(), Vector6::repeat(1.0))?)?;
+/// let mut sensor = Solved::new(signals, Tare::new(Vector6::repeat(0.5)), solver);
+/// assert_eq!(sensor.next_sample()?.unwrap().value.force().z, 2.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Solved<S, Z, W, const N: usize> {
     source: S,

@@ -8,6 +8,36 @@ use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// What to do when a link is lost. There is no default: whether a hand goes on after a gap is for its maker to
 /// say.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::middleware::{OnLoss, Supervised, SupervisedError};
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use std::io::{self, Read};
+///
+/// /// A port that gives one frame and is lost then.
+/// fn port() -> impl Read {
+///     struct Gone;
+///     impl Read for Gone {
+///         fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+///             Err(io::ErrorKind::TimedOut.into())
+///         }
+///     }
+///     io::Cursor::new(Frame::default().emit()).chain(Gone)
+/// }
+///
+/// let connect = |_| Ok(LineSensor::<_, f64, _>::new(port(), BotaDecoder::new()));
+/// let mut patient = Supervised::new(connect, OnLoss::Reconnect { attempts: 3 })?;
+/// assert!(patient.next_sample().is_ok() && patient.next_sample().is_ok());
+/// assert_eq!(patient.reconnections(), 1);
+///
+/// let mut strict = Supervised::new(connect, OnLoss::FailStop)?;
+/// assert!(strict.next_sample().is_ok());
+/// assert!(matches!(strict.next_sample(), Err(SupervisedError::Lost(_))));
+/// assert!(matches!(strict.next_sample(), Err(SupervisedError::Stopped)));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnLoss {
     /// Give the error, and from then on nothing but errors, until [`Supervised::resume`] is called.
@@ -20,6 +50,20 @@ pub enum OnLoss {
 }
 
 /// Why a supervised source has no sample.
+///
+/// ```
+/// use fingertip_drivers::converters::ConverterFault;
+/// use fingertip_drivers::middleware::SupervisedError;
+/// use fingertip_drivers::{SourceError, SourceErrorKind};
+///
+/// let lost = SupervisedError::Lost(ConverterFault::Timeout);
+/// assert_eq!(
+///     (lost.kind(), lost.to_string().as_str()),
+///     (SourceErrorKind::Timeout, "the link is lost: Timeout")
+/// );
+/// let stopped = SupervisedError::<ConverterFault>::Stopped;
+/// assert_eq!(stopped.to_string(), "stopped since the link was lost; resume to go on");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SupervisedError<E> {

@@ -6,6 +6,19 @@ use crate::polled::NbSource;
 use crate::{Sample, Source};
 
 /// A sample, and how fresh it is.
+///
+/// ```
+/// use fingertip_drivers::Sample;
+/// use fingertip_drivers::middleware::Watch;
+///
+/// // Samples of 1 kHz; the third is missing, and the fourth was 2 ms longer under way than the quickest.
+/// let mut watch = Watch::new(Some(1e-3));
+/// watch.arrive(Sample { time: Some(0.0), value: 1.0 }, 10.0);
+/// watch.arrive(Sample { time: Some(1e-3), value: 2.0 }, 10.001);
+/// let fresh = watch.arrive(Sample { time: Some(3e-3), value: 2.0 }, 10.005);
+/// assert!(fresh.age.is_some_and(|age: f64| (age - 2e-3).abs() < 1e-9));
+/// assert_eq!((fresh.missing, fresh.repeated), (1, true));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fresh<T, V> {
     /// The sample.
@@ -23,6 +36,18 @@ pub struct Fresh<T, V> {
 }
 
 /// What was read so far.
+///
+/// ```
+/// use fingertip_drivers::Sample;
+/// use fingertip_drivers::middleware::Watch;
+///
+/// // A source that has frozen.
+/// let mut watch = Watch::<f64, f64>::new(None);
+/// for value in [1.0, 2.0, 2.0, 2.0, 2.0] {
+///     watch.arrive(Sample { time: None, value }, 0.0);
+/// }
+/// assert_eq!((watch.counts().given, watch.counts().longest_freeze), (5, 3));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ReadCounts {
@@ -44,6 +69,18 @@ pub struct ReadCounts {
 
 /// Follows samples as they come. [`Watched`] does this around a source; use it alone where samples
 /// come by another way.
+///
+/// ```
+/// use fingertip_drivers::Sample;
+/// use fingertip_drivers::middleware::Watch;
+///
+/// // Samples of 1 kHz that come as messages; some are missing, and one comes late.
+/// let mut watch = Watch::new(Some(1e-3));
+/// for milliseconds in [0.0, 1.0, 4.0, 3.0] {
+///     watch.arrive(Sample { time: Some(1e-3 * milliseconds), value: milliseconds }, 10.0);
+/// }
+/// assert_eq!((watch.counts().missing, watch.counts().backward), (2, 1));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Watch<T, V> {
     period: Option<T>,
@@ -118,6 +155,23 @@ impl<T: Real, V: Copy + PartialEq> Watch<T, V> {
 ///
 /// The caller gives the time of its own clock with each call: there is no hidden clock. `V` is what
 /// the source gives: `Wrench<T>`, or `SVector<T, N>` for signals.
+///
+/// ```
+/// use fingertip_drivers::middleware::Watched;
+/// use fingertip_drivers::playback::WrenchPlayback;
+/// use fingertip_recordings::RecordingReader;
+///
+/// let file =
+///     "time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,0,0,-1,0,0,0\n0.001,0,0,-1,0,0,0\n0.005,0,0,-3,0,0,0\n";
+/// let playback = WrenchPlayback::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// let mut watched = Watched::new(playback, Some(1e-3));
+/// while let Some(fresh) = watched.next_fresh(0.0)? {
+///     assert!(fresh.sample.value.force().z < 0.0);
+/// }
+/// let counts = watched.counts();
+/// assert_eq!((counts.given, counts.missing, counts.repeated), (3, 3, 1));
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
+/// ```
 #[derive(Debug)]
 pub struct Watched<S, T, V> {
     source: S,

@@ -38,6 +38,20 @@ pub struct WrenchPlayback<R> {
 
 /// The signals of one sensor with `N` gauges of a recording, as a [`Source`]; without the
 /// dummy gauge. Rows are passed over as by [`WrenchPlayback`].
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::playback::SignalPlayback;
+/// use fingertip_recordings::RecordingReader;
+///
+/// let file = "s1_V,s2_V,s3_V\n0.1,0.2,0.3\n";
+/// let mut playback =
+///     SignalPlayback::<_, 3>::new(RecordingReader::new("example.csv", file.as_bytes())?, "")?;
+/// assert_eq!(playback.next_sample()?.unwrap().value.as_slice(), [0.1, 0.2, 0.3]);
+/// // It must have as many gauges as are asked for.
+/// assert!(SignalPlayback::<_, 6>::new(RecordingReader::new("example.csv", file.as_bytes())?, "").is_err());
+/// # Ok::<(), fingertip_recordings::RecordingError>(())
+/// ```
 #[derive(Debug)]
 pub struct SignalPlayback<R, const N: usize> {
     reader: RecordingReader<R>,

@@ -8,6 +8,27 @@ use fingertip_wrench::Wrench;
 use crate::{Sample, Source};
 
 /// The wrenches of one topic. Those that are not finite are passed over and counted.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::playback::McapPlayback;
+/// use fingertip_recordings::mcap::McapWriter;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector6;
+/// use std::io::Cursor;
+///
+/// let wrench = Wrench::from_components(&Vector6::new(0.0, 0.0, -2.0, 0.0, 0.0, 0.0));
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let topic = writer.wrenches("tip/wrench", "sensor")?;
+/// writer.write_wrench(topic, 0.5, &wrench)?;
+/// let file = writer.finish()?.into_inner();
+///
+/// let mut playback = McapPlayback::new(Cursor::new(file), "tip/wrench")?;
+/// let sample = playback.next_sample()?.unwrap();
+/// assert_eq!((sample.time, sample.value), (Some(0.5), wrench));
+/// assert_eq!(playback.next_sample()?, None);
+/// # Ok::<(), fingertip_recordings::mcap::McapError>(())
+/// ```
 #[derive(Debug)]
 pub struct McapPlayback<R> {
     reader: McapReader<R>,

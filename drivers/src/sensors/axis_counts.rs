@@ -5,6 +5,13 @@ use nalgebra::Vector3;
 use thiserror::Error;
 
 /// Counts per unit that cannot be.
+///
+/// ```
+/// use fingertip_drivers::sensors::AxisCounts;
+///
+/// let told = AxisCounts::uniform(50.0, 0.0).unwrap_err().to_string();
+/// assert_eq!(told, "axis 3: counts per newton or newton metre must be finite and not zero, and are 0");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("axis {axis}: counts per newton or newton metre must be finite and not zero, and are {found}")]
 pub struct BadAxisCounts {
@@ -16,6 +23,15 @@ pub struct BadAxisCounts {
 
 /// How many counts a newton (the first three axes) and a newton metre (the others) are. Negative ones
 /// turn an axis round.
+///
+/// ```
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_wrench::Wrench;
+///
+/// let wrench: Wrench<f64> = AxisCounts::uniform(50.0, 2000.0)?.wrench([0, 0, -100, 0, 26, 0]);
+/// assert!((wrench.force().z + 2.0).abs() < 1e-12 && (wrench.torque().y - 0.013).abs() < 1e-12);
+/// # Ok::<(), fingertip_drivers::sensors::BadAxisCounts>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisCounts {
     per_count: [f64; 6],

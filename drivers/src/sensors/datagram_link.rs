@@ -8,6 +8,22 @@ use rand_pcg::Pcg64Mcg;
 use crate::sensors::LinkStatistics;
 
 /// What the link does to datagrams: probabilities between 0 and 1.
+///
+/// ```
+/// use fingertip_drivers::sensors::FaultPlan;
+/// use fingertip_drivers::sensors::ati_rdt::{Command, Request, SimulatedNetFt};
+///
+/// // A link that loses one datagram in ten.
+/// let mut sensor = SimulatedNetFt::new(FaultPlan { loss: 0.1, ..FaultPlan::default() });
+/// sensor.request(&Request { command: Command::Stream, count: 0 }.emit());
+/// let mut came = 0;
+/// for _ in 0..1000 {
+///     sensor.sample([0; 6]);
+///     came += u64::from(sensor.datagram().is_some());
+/// }
+/// assert_eq!(came + sensor.injected().lost, 1000);
+/// assert!((50..200).contains(&sensor.injected().lost));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaultPlan {
     /// A datagram does not arrive.

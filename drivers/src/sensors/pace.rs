@@ -5,6 +5,19 @@ use std::thread;
 use std::time::Instant;
 
 /// Says when the next sample of a simulated sensor is due.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_drivers::sensors::Pace;
+/// use std::time::Instant;
+///
+/// // Five samples, 2 ms apart: the first is due at once.
+/// let (mut pace, start, mut samples) = (Pace::new(Duration::from_millis(2)), Instant::now(), 0);
+/// while samples < 5 {
+///     samples += u32::from(pace.is_due());
+/// }
+/// assert!(start.elapsed() >= Duration::from_millis(8));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     period: Duration,

@@ -1,6 +1,21 @@
 //! Loss, repetition and disorder of numbered records.
 
 /// What the number of a record says about it.
+///
+/// ```
+/// use fingertip_drivers::sensors::{Arrival, SequenceWatch};
+///
+/// let mut watch = SequenceWatch::default();
+/// let arrivals = [5, 6, 9, 8, 9].map(|number| watch.arrive(number));
+/// let expected = [
+///     Arrival::Start,
+///     Arrival::New { missing: 0 },
+///     Arrival::New { missing: 2 },
+///     Arrival::Late,
+///     Arrival::Duplicate,
+/// ];
+/// assert_eq!(arrivals, expected);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arrival {
     /// The first record, or the first after the sender began to count anew.
@@ -28,6 +43,18 @@ impl Arrival {
 }
 
 /// How a link has behaved so far.
+///
+/// ```
+/// use fingertip_drivers::sensors::SequenceWatch;
+///
+/// let mut watch = SequenceWatch::default();
+/// for number in [5, 6, 9, 8, 9] {
+///     watch.arrive(number);
+/// }
+/// // Record 7 never came.
+/// let statistics = watch.statistics();
+/// assert_eq!((statistics.received, statistics.lost, statistics.late, statistics.duplicates), (5, 1, 1, 1));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LinkStatistics {
@@ -52,6 +79,16 @@ pub struct LinkStatistics {
 /// A number up to [`FURTHEST`](Self::FURTHEST) ahead is taken as news after a loss; one up to
 /// [`WINDOW`](Self::WINDOW) behind as late or repeated, and which of the two is known exactly. All
 /// others are doubtful.
+///
+/// ```
+/// use fingertip_drivers::sensors::{Arrival, SequenceWatch};
+///
+/// // Numbers wrap around.
+/// let mut watch = SequenceWatch::default();
+/// watch.arrive(u32::MAX);
+/// assert_eq!(watch.arrive(1), Arrival::New { missing: 1 });
+/// assert_eq!(watch.index(), 2);
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SequenceWatch {
     newest: Option<u32>,

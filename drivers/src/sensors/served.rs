@@ -8,6 +8,19 @@ use std::io;
 use std::thread::JoinHandle;
 
 /// A simulated sensor that serves in a thread of its own, until it is dropped.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_drivers::sensors::FaultPlan;
+/// use fingertip_drivers::sensors::ati_rdt::{RdtServer, SimulatedNetFt};
+///
+/// // At a free port; without a client it sends nothing.
+/// let sensor = SimulatedNetFt::new(FaultPlan::default());
+/// let server = RdtServer::start("127.0.0.1:0", sensor, Duration::from_millis(1), |_| [0; 6])?;
+/// assert!(server.address().port() > 0);
+/// assert_eq!(server.stop().unwrap().sent(), 0);
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Served<Sensor> {
     address: SocketAddr,

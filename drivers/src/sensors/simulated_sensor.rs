@@ -7,6 +7,20 @@ use crate::sensors::datagram_link::{DatagramLink, FaultPlan};
 
 /// A sensor that is not there, and its link, without sockets: requests and loads in, datagrams out. `Device` is
 /// what is its own: its numbering, its zero, its load.
+///
+/// ```
+/// use fingertip_drivers::sensors::FaultPlan;
+/// use fingertip_drivers::sensors::ati_rdt::{Command, Record, RecordPacket, Request, SimulatedNetFt};
+///
+/// let mut sensor = SimulatedNetFt::new(FaultPlan::default());
+/// sensor.request(&Request { command: Command::Stream, count: 0 }.emit());
+/// // From now on it reports a fault.
+/// sensor.set_status(0x8000_0001);
+/// sensor.sample([0; 6]);
+/// let datagram = sensor.datagram().unwrap();
+/// assert_eq!(Record::parse(&RecordPacket::new_checked(&datagram)?).status, 0x8000_0001);
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::WireError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SimulatedSensor<Device> {
     link: DatagramLink,

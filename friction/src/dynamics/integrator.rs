@@ -9,6 +9,31 @@ use super::bristle::clamped;
 ///
 /// All three keep `|z| ≤ F_s/σ₀`, do not let two states of the same law part (for α = 1), and are
 /// passive, for every step length (`docs/theory/friction.md#integrators`).
+///
+/// ```
+/// use fingertip_friction::{Advanced, Bristle, Dahl, Integrator};
+/// use fingertip_wrench::Real;
+/// use nalgebra::{SVector, Vector1};
+///
+/// /// The trapezoidal rule, which is of second order.
+/// #[derive(Clone, Copy)]
+/// struct Trapezoid;
+/// impl Integrator for Trapezoid {
+///     fn advance<T: Real, const D: usize>(
+///         deflection: &SVector<T, D>, step: &SVector<T, D>, slide: T, _limit: T,
+///     ) -> Advanced<T, D> {
+///         let half = slide * T::literal(0.5);
+///         let end = (deflection * (T::one() - half) + step) / (T::one() + half);
+///         Advanced { end, mean: (deflection + end) * T::literal(0.5) }
+///     }
+/// }
+///
+/// let mut friction = Bristle::<f64, _, 1, Trapezoid>::with_method(Dahl::new(1e5, 0.5)?);
+/// friction.set_load(2.0);
+/// let slid = (0..1000).map(|_| friction.step(&Vector1::new(0.01), 1e-4)).last().unwrap();
+/// assert!((slid.end[0] - 1.0).abs() < 1e-9); // Coulomb's 0.5 times 2 N
+/// # Ok::<(), fingertip_friction::BadParameter>(())
+/// ```
 pub trait Integrator: Copy {
     /// The new deflection, and the mean deflection over the step. `step` is `hv`, `slide` is `hλ` with
     /// `λ = α σ₀|v|/g`, and `limit` is `g/σ₀`.
@@ -21,6 +46,16 @@ pub trait Integrator: Copy {
 }
 
 /// What an [`Integrator`] makes of a deflection.
+///
+/// ```
+/// use fingertip_friction::{Exponential, Integrator};
+/// use nalgebra::Vector1;
+///
+/// // Far below the limit bristles bend by as much as the surfaces move: 1 µm, on average half of it.
+/// let advanced = Exponential::advance(&Vector1::zeros(), &Vector1::new(1e-6_f64), 0.0, 1.0);
+/// assert!((advanced.end[0] - 1e-6).abs() < 1e-20);
+/// assert!((advanced.mean[0] - 0.5e-6).abs() < 1e-20);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advanced<T: Real, const D: usize> {
     /// The deflection at the end of the step \[m\].

@@ -3,6 +3,22 @@
 use fingertip_wrench::ChannelLimits;
 
 /// What the numbers of a channel are: channels of one sensor and one kind are neighbours, whose noise can be compared.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel, What};
+///
+/// // One of two channels never changes: beside a gauge it is dead, alone of its kind it may just rest.
+/// let finds = |kinds: [Kind; 2]| {
+///     let channels = kinds.map(|kind| WatchedChannel::new("a channel", "", kind)).to_vec();
+///     let mut watch = HealthWatch::new(channels, Depth::Brief);
+///     for i in 0..1000_u32 {
+///         watch.add(Some(f64::from(i) * 1e-3), &[f64::from(i * 7919 % 101), 0.0]);
+///     }
+///     let health = watch.finish();
+///     health.findings.into_iter().find(|finding| finding.what == What::Dead).map(|finding| finding.level)
+/// };
+/// assert!(finds([Kind::Signal, Kind::Signal]) > finds([Kind::Signal, Kind::Force]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum Kind {
@@ -24,6 +40,23 @@ impl Kind {
 }
 
 /// A channel that is watched.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel, What};
+/// use fingertip_wrench::ChannelLimits;
+///
+/// // A gauge of the left finger, whose amplifier is linear up to 4.5 V.
+/// let linear = ChannelLimits::new(0.0, 4.5)?;
+/// let gauge = WatchedChannel::new("v1", "V", Kind::Signal).of_sensor("left").within(linear);
+/// let mut watch = HealthWatch::new(vec![gauge], Depth::Brief);
+/// for i in 0..1000_u32 {
+///     watch.add(Some(f64::from(i) * 1e-3), &[f64::from(i) * 5e-3]);
+/// }
+/// let health = watch.finish();
+/// assert!(health.findings.iter().any(|finding| finding.what == What::Saturated));
+/// assert_eq!(health.channels[0].sensor, "left");
+/// # Ok::<(), fingertip_wrench::BadLimits>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct WatchedChannel {
     /// What messages call it.

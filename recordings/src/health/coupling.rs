@@ -3,6 +3,25 @@
 use super::block::Block;
 
 /// Two channels whose noise is not independent.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let channels = ["v1", "v2", "v3"].map(|name| WatchedChannel::new(name, "V", Kind::Signal)).to_vec();
+/// let mut watch = HealthWatch::new(channels, Depth::Full);
+/// let mut state = 1_u32;
+/// let mut noise = || {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     f64::from(state >> 16) / 65_536.0 - 0.5
+/// };
+/// for i in 0..20_000 {
+///     let (first, second, third) = (noise(), noise(), noise());
+///     watch.add(Some(f64::from(i) * 1e-3), &[first, second, first + third]); // the third hears the first
+/// }
+/// let coupling = watch.finish().couplings[0];
+/// assert_eq!((coupling.first, coupling.second), (0, 2));
+/// assert!((coupling.correlation - 0.5_f64.sqrt()).abs() < 0.02);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Coupling {

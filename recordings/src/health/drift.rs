@@ -4,6 +4,19 @@ use super::block::{Block, Cell};
 use super::noise::Line;
 
 /// How a channel moved over a rest.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], Depth::Brief);
+/// for i in 0..20_000_u32 {
+///     // Within 20 s the zero moves by 20 mV, under noise of 29 mV.
+///     let noise = f64::from(i.wrapping_mul(2_654_435_769) >> 16) / 65_536.0 - 0.5;
+///     watch.add(Some(f64::from(i) * 1e-3), &[0.1 * noise + f64::from(i) * 1e-6]);
+/// }
+/// let drift = watch.finish().channels[0].drift.unwrap();
+/// assert!((drift.moved - 0.02).abs() < 4.0 * drift.error);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Drift {

@@ -3,6 +3,16 @@
 use core::fmt;
 
 /// How bad something is.
+///
+/// ```
+/// use fingertip_recordings::health::Level;
+///
+/// // They are ordered, so that the worst is the greatest.
+/// let found = [Level::Note, Level::Bad, Level::Sound];
+/// assert_eq!(found.into_iter().max(), Some(Level::Bad));
+/// assert!(Level::Suspect > Level::Note);
+/// assert_eq!(Level::Suspect.name(), "suspect");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum Level {
@@ -31,6 +41,18 @@ impl Level {
 }
 
 /// What was found.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, Level, WatchedChannel, What};
+///
+/// let channels = ["v1", "v2"].map(|name| WatchedChannel::new(name, "V", Kind::Signal)).to_vec();
+/// let mut watch = HealthWatch::new(channels, Depth::Brief);
+/// watch.add(Some(0.0), &[0.1, f64::NAN]);
+/// let health = watch.finish();
+/// let found = health.findings.iter().map(|finding| finding.what).collect::<Vec<_>>();
+/// assert_eq!(found[0], What::NotFinite);
+/// assert!(found.contains(&What::TooShort));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
@@ -82,6 +104,21 @@ pub enum What {
 }
 
 /// Something that was found.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, Level, WatchedChannel, What};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], Depth::Brief);
+/// for i in 0..4000_u32 {
+///     // Half a second is missing after the first two.
+///     let time = f64::from(i) * 1e-3 + if i < 2000 { 0.0 } else { 0.5 };
+///     watch.add(Some(time), &[f64::from(i * 7919 % 101) * 1e-4]);
+/// }
+/// let health = watch.finish();
+/// let gap = health.findings.iter().find(|finding| finding.what == What::Gaps).unwrap();
+/// assert!(gap.channels.is_empty()); // it is of all
+/// assert_eq!(gap.said, "1 gap in time, the longest of 0.501 s; about 500 samples are missing");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Finding {

@@ -3,6 +3,29 @@
 use fingertip_wrench::{ChannelFault, ChannelLimits, ChannelMonitor};
 
 /// A stretch over which a channel is at fault.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+/// use fingertip_wrench::ChannelFault;
+///
+/// let mut watch = HealthWatch::new(vec![
+///     WatchedChannel::new("v1", "counts", Kind::Signal),
+///     WatchedChannel::new("v2", "counts", Kind::Signal),
+/// ], Depth::Brief);
+/// let mut state = 1_u32;
+/// let mut noise = || {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     f64::from(state >> 25)
+/// };
+/// for i in 0..4000 {
+///     let (first, second) = (noise(), noise());
+///     // A wire of the second breaks after 3 s.
+///     watch.add(Some(f64::from(i) * 1e-3), &[first, if i < 3000 { second } else { 50.0 }]);
+/// }
+/// let stretch = watch.finish().channels[1].stretches[0];
+/// assert_eq!((stretch.fault, stretch.low, stretch.high), (ChannelFault::Stuck, 50.0, 50.0));
+/// assert!((stretch.from - 3.0).abs() < 1e-9 && (stretch.to - 3.999).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HeldStretch {

@@ -3,6 +3,22 @@
 use super::spectrum::Spectra;
 
 /// A frequency at which a channel swings.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], Depth::Full);
+/// for i in 0..20_000_u32 {
+///     let noise = f64::from(i.wrapping_mul(2_654_435_769) >> 16) / 65_536.0 - 0.5;
+///     // The mains, 20 mV from peak to peak.
+///     let hum = 0.01 * (std::f64::consts::TAU * 50.0 * f64::from(i) * 1e-3).sin();
+///     watch.add(Some(f64::from(i) * 1e-3), &[0.01 * noise + hum]);
+/// }
+/// let health = watch.finish();
+/// let line = &health.channels[0].lines[0];
+/// assert!((line.frequency - 50.0).abs() < 0.1 && (line.rms - 0.01 / 2.0_f64.sqrt()).abs() < 1e-4);
+/// assert_eq!(line.name, "mains, 50 Hz");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SpectralLine {

@@ -5,6 +5,24 @@ use fingertip_wrench::AllanVariance;
 use super::block::{Block, Cell};
 
 /// The Allan deviation of means over a time.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], Depth::Full);
+/// let mut state = 1_u32;
+/// for i in 0..20_000 {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     watch.add(Some(f64::from(i) * 1e-3), &[f64::from(state >> 16) / 65_536.0]);
+/// }
+/// let noise = watch.finish().channels[0].noise.clone().unwrap();
+/// // White noise: the mean of four times as many readings is twice as good.
+/// for point in noise.allan.iter().filter(|point| point.pairs > 1000) {
+///     let expected = (1.0 / 12.0 / point.readings as f64).sqrt();
+///     assert!((point.deviation / expected - 1.0).abs() < 0.1);
+/// }
+/// assert_eq!(noise.allan[0].readings, 1);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AllanPoint {
@@ -17,6 +35,22 @@ pub struct AllanPoint {
 }
 
 /// The noise of a channel at rest, in its unit.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], Depth::Brief);
+/// let mut state = 1_u32;
+/// for i in 0..4000 {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     // Evenly between 1 V and 2 V, of which the standard deviation is 1 V/√12.
+///     watch.add(Some(f64::from(i) * 1e-3), &[1.0 + f64::from(state >> 16) / 65_536.0]);
+/// }
+/// let noise = watch.finish().channels[0].noise.clone().unwrap();
+/// assert!((noise.mean - 1.5).abs() < 0.02);
+/// assert!((noise.deviation - 12.0_f64.sqrt().recip()).abs() < 0.01);
+/// assert!((noise.independent / noise.deviation - 1.0).abs() < 0.05); // all of it is independent
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Noise {

@@ -10,6 +10,22 @@ use super::zero_steps::ZeroStep;
 use super::{Kind, WatchedChannel};
 
 /// When samples came.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], Depth::Brief);
+/// for i in 0..1000_u32 {
+///     // 500 samples a second, of which the one at 1 s is missing.
+///     if i != 500 {
+///         watch.add(Some(f64::from(i) * 2e-3), &[f64::from(i % 7)]);
+///     }
+/// }
+/// let rate = watch.finish().rate;
+/// assert!((rate.rate.unwrap() - 500.0).abs() < 1e-6);
+/// assert_eq!(rate.gaps, 1);
+/// assert!((rate.missing - 1.0).abs() < 1e-9 && (rate.longest_gap.unwrap() - 4e-3).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Rate {
@@ -30,6 +46,22 @@ pub struct Rate {
 }
 
 /// The lowest and highest mean over a part of the recording.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("fz", "N", Kind::Force)], Depth::Brief);
+/// for i in 0..4000_u32 {
+///     watch.add(Some(f64::from(i) * 1e-3), &[if i < 2000 { 0.0 } else { -5.0 }]);
+/// }
+/// // A press at 2 s, as a plot of few points shows it.
+/// let health = watch.finish();
+/// let course = &health.channels[0].course;
+/// assert!(course.iter().all(|part| part.least <= part.mean && part.mean <= part.greatest));
+/// let (first, last) = (course.first().unwrap(), course.last().unwrap());
+/// assert_eq!((first.mean, last.mean), (0.0, -5.0));
+/// assert!(first.time < 2.0 && 2.0 < last.time);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Excursion {
@@ -44,6 +76,27 @@ pub struct Excursion {
 }
 
 /// The health of one channel, in its unit.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "counts", Kind::Signal)], Depth::Brief);
+/// let mut state = 1_u32;
+/// let mut noise = || {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     f64::from(state >> 25)
+/// };
+/// for i in 0..4000_u32 {
+///     // Steps of 4 counts, and one reading that is no number.
+///     let reading = if i == 7 { f64::NAN } else { 4.0 * noise() };
+///     watch.add(Some(f64::from(i) * 1e-3), &[reading]);
+/// }
+/// let health = watch.finish();
+/// let channel = &health.channels[0];
+/// assert_eq!((channel.name.as_str(), channel.unit.as_str()), ("v1", "counts"));
+/// assert_eq!(channel.range, Some([0.0, 508.0]));
+/// assert_eq!((channel.step, channel.not_finite), (Some(4.0), 1));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ChannelHealth {
@@ -86,6 +139,22 @@ pub struct ChannelHealth {
 }
 
 /// The health of all channels.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, Level, WatchedChannel};
+///
+/// let channels = ["v1", "v2"].map(|name| WatchedChannel::new(name, "V", Kind::Signal)).to_vec();
+/// let mut watch = HealthWatch::new(channels, Depth::Brief);
+/// for i in 0..4000_u32 {
+///     let noise = |k: u32| f64::from(i.wrapping_mul(k) >> 16) / 65_536.0;
+///     watch.add(Some(f64::from(i) * 1e-3), &[noise(2_654_435_769), noise(2_246_822_519)]);
+/// }
+/// let health = watch.finish();
+/// assert_eq!(health.samples, 4000);
+/// assert!(health.rest_share > 0.9); // nothing touches it
+/// assert!(health.level() < Level::Suspect);
+/// assert_eq!(health.faults().count(), 0);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Health {

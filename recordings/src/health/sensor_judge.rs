@@ -50,8 +50,8 @@ fn times(health: &Health) -> Vec<Finding> {
     let mut found = Vec::new();
     if let Some(longest) = rate.longest_gap {
         let said = format!(
-            "{} gaps in time, the longest of {} s; about {} samples are missing",
-            rate.gaps,
+            "{} in time, the longest of {} s; about {} samples are missing",
+            if rate.gaps == 1 { "1 gap".to_owned() } else { format!("{} gaps", rate.gaps) },
             digits(longest),
             rate.missing
         );

@@ -12,6 +12,22 @@ use crate::Timing;
 use crate::time_watch::Step;
 
 /// How much is looked at.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let spectrum = |depth| {
+///     let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], depth);
+///     for i in 0..8000_u32 {
+///         watch.add(Some(f64::from(i) * 1e-3), &[f64::from(i.wrapping_mul(2_654_435_769) >> 16)]);
+///     }
+///     watch.finish().channels[0].spectrum.clone()
+/// };
+/// assert!(spectrum(Depth::Brief).is_empty());
+/// // Up to half of the 1000 samples a second.
+/// let (frequency, _) = *spectrum(Depth::Full).last().unwrap();
+/// assert!((frequency - 500.0).abs() < 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
     /// What costs little: all but spectra, noise in common, and the Allan deviation of means of some readings.
@@ -21,6 +37,25 @@ pub enum Depth {
 }
 
 /// Watches the channels of one or several sensors that are read together.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel, What};
+///
+/// let channels = ["v1", "v2", "v3"].map(|name| WatchedChannel::new(name, "V", Kind::Signal)).to_vec();
+/// let mut state = 1_u32;
+/// let mut noise = || {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     f64::from(state >> 25)
+/// };
+/// // Readings without times, 1000 a second.
+/// let mut watch = HealthWatch::new(channels, Depth::Brief).with_rate(1000.0);
+/// for _ in 0..4000 {
+///     // The second gauge is thirty times as noisy as its neighbours.
+///     watch.add(None, &[noise(), 30.0 * noise(), noise()]);
+/// }
+/// let noisy = watch.finish().findings.into_iter().find(|finding| finding.what == What::Noisy).unwrap();
+/// assert_eq!(noisy.channels, ["v2"]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct HealthWatch {
     channels: Vec<WatchedChannel>,

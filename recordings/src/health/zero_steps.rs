@@ -5,6 +5,29 @@ use super::rest::Quiet;
 use super::trace::Trace;
 
 /// What a step of the zero looks like.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, StepKind, WatchedChannel};
+///
+/// // What jumps after 5 s of readings of two gauges that rest at 1 V.
+/// let jump = |after: [f64; 2]| {
+///     let channels = ["v1", "v2"].map(|name| WatchedChannel::new(name, "V", Kind::Signal)).to_vec();
+///     let mut watch = HealthWatch::new(channels, Depth::Brief);
+///     let mut state = 1_u32;
+///     let mut noise = || {
+///         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///         f64::from(state >> 16) / 65_536e3
+///     };
+///     for i in 0..10_000_u32 {
+///         let level = if i < 5000 { [1.0, 1.0] } else { after };
+///         watch.add(Some(f64::from(i) * 1e-3), &level.map(|level| level + noise()));
+///     }
+///     watch.finish().steps[0].kind
+/// };
+/// assert_eq!(jump([1.0, 1.5]), StepKind::One);
+/// assert_eq!(jump([1.2, 1.5]), StepKind::Several);
+/// assert_eq!(jump([0.0, 0.0]), StepKind::Tare);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum StepKind {
@@ -17,6 +40,22 @@ pub enum StepKind {
 }
 
 /// A level that changed from one sample to the next, at rest before and behind.
+///
+/// ```
+/// use fingertip_recordings::health::{Depth, HealthWatch, Kind, WatchedChannel};
+///
+/// let mut watch = HealthWatch::new(vec![WatchedChannel::new("v1", "V", Kind::Signal)], Depth::Brief);
+/// let mut state = 1_u32;
+/// for i in 0..10_000_u32 {
+///     state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///     let zero = if i < 5000 { 1.0 } else { 1.5 };
+///     watch.add(Some(f64::from(i) * 1e-3), &[zero + f64::from(state >> 16) / 65_536e3]);
+/// }
+/// let step = &watch.finish().steps[0];
+/// assert_eq!((step.sample, step.time), (5000, 5.0));
+/// let (channel, by) = step.channels[0];
+/// assert!(channel == 0 && (by - 0.5).abs() < 1e-3);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ZeroStep {

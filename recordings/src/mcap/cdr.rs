@@ -8,6 +8,20 @@ use fingertip_wrench::Wrench;
 use thiserror::Error;
 
 /// Bytes that are not the message that is read.
+///
+/// ```
+/// use fingertip_recordings::mcap::{CdrError, CdrReader, CdrWriter};
+///
+/// let mut writer = CdrWriter::default();
+/// writer.u8(7);
+/// let message = writer.into_message();
+/// let mut reader = CdrReader::new(&message)?;
+/// assert_eq!(reader.u8(), Ok(7));
+/// let refused = reader.f64().unwrap_err();
+/// assert!(matches!(refused, CdrError::Short { .. }));
+/// assert!(refused.to_string().starts_with("the message ends at byte "));
+/// # Ok::<(), CdrError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CdrError {
@@ -32,6 +46,17 @@ pub enum CdrError {
 }
 
 /// Reads fields in their order.
+///
+/// ```
+/// use fingertip_recordings::mcap::CdrReader;
+///
+/// // Little-endian plain CDR; a string of two letters, and a number at the next multiple of four.
+/// let message = [0, 1, 0, 0, 3, 0, 0, 0, b'f', b'z', 0, 0, 42, 0, 0, 0];
+/// let mut reader = CdrReader::new(&message)?;
+/// assert_eq!(reader.string()?, "fz");
+/// assert_eq!(reader.u32()?, 42);
+/// # Ok::<(), fingertip_recordings::mcap::CdrError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct CdrReader<'a> {
     body: &'a [u8],
@@ -151,6 +176,15 @@ impl<'a> CdrReader<'a> {
 }
 
 /// Writes fields in their order, little-endian.
+///
+/// ```
+/// use fingertip_recordings::mcap::CdrWriter;
+///
+/// let mut writer = CdrWriter::default();
+/// writer.u8(7);
+/// writer.i32(-1); // from the next multiple of four on
+/// assert_eq!(writer.into_message(), [0, 1, 0, 0, 7, 0, 0, 0, 255, 255, 255, 255]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct CdrWriter {
     message: Vec<u8>,

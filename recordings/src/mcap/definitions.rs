@@ -2,6 +2,14 @@
 //! every type in it.
 
 /// A type of message.
+///
+/// ```
+/// use fingertip_recordings::mcap::definitions;
+///
+/// let [wrench, ..] = definitions();
+/// assert_eq!(wrench.name, "geometry_msgs/msg/WrenchStamped");
+/// assert!(wrench.text.contains("geometry_msgs/Wrench wrench"));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Definition {
     /// Its name with its package.

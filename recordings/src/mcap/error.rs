@@ -5,6 +5,20 @@ use thiserror::Error;
 use super::cdr::CdrError;
 
 /// Why an MCAP file cannot be read or written.
+///
+/// ```
+/// use fingertip_recordings::mcap::{McapError, McapWriter};
+/// use fingertip_wrench::Wrench;
+/// use std::io::Cursor;
+///
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let topic = writer.wrenches("tip/wrench", "sensor")?;
+/// let refused = writer.write_wrench(topic, -1.0, &Wrench::zero()).unwrap_err();
+/// assert!(matches!(refused, McapError::Time { time: -1.0 }));
+/// assert_eq!(refused.to_string(), "-1 s cannot be written: times are from 0 to 2147483647 s");
+/// assert!(!refused.is_transport());
+/// # Ok::<(), McapError>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum McapError {

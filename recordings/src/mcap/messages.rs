@@ -8,6 +8,15 @@ use super::definitions::{CONTACT, SIGNALS, TOUCH, WRENCH};
 use super::touch::RecordedTouch;
 
 /// When and where: the header of every message.
+///
+/// ```
+/// use fingertip_recordings::mcap::Header;
+///
+/// let header = Header::stamped(12.25, "sensor").unwrap();
+/// assert_eq!((header.seconds, header.nanoseconds), (12, 250_000_000));
+/// assert_eq!(header.time(), 12.25);
+/// assert_eq!(Header::stamped(-1.0, "sensor"), None);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Header {
     /// Seconds of the stamp.
@@ -64,6 +73,20 @@ impl Header {
 }
 
 /// Signals of a sensor.
+///
+/// ```
+/// use fingertip_recordings::mcap::{McapReader, McapWriter, Recorded, RecordedSignals};
+/// use std::io::Cursor;
+///
+/// let signals = RecordedSignals { unit: "V".into(), values: vec![0.25, -0.5] };
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let topic = writer.signals("tip/signals", "sensor")?;
+/// writer.write_signals(topic, 0.0, signals.clone())?;
+/// let file = writer.finish()?.into_inner();
+/// let entry = McapReader::new(&file[..])?.next_entry()?.unwrap();
+/// assert_eq!(entry.recorded, Recorded::Signals(signals));
+/// # Ok::<(), fingertip_recordings::mcap::McapError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordedSignals {
     /// What the numbers are: `V`, `counts`.
@@ -73,6 +96,27 @@ pub struct RecordedSignals {
 }
 
 /// A contact of a fingertip, in the frame of its sensor.
+///
+/// ```
+/// use fingertip_recordings::mcap::{McapReader, McapWriter, Recorded, RecordedContact};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+/// use std::io::Cursor;
+///
+/// let contact = RecordedContact {
+///     name: "thumb".into(),
+///     position: Vector3::new(0.0, 0.0, 0.013),
+///     normal: Vector3::z(),
+///     wrench: Wrench::on_fingertip(Vector3::new(0.3, 0.0, -2.0), Vector3::zeros()),
+/// };
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let topic = writer.contacts("thumb/contact", "thumb_sensor")?;
+/// writer.write_contact(topic, 0.0, contact.clone())?;
+/// let file = writer.finish()?.into_inner();
+/// let entry = McapReader::new(&file[..])?.next_entry()?.unwrap();
+/// assert_eq!(entry.recorded, Recorded::Contact(contact));
+/// # Ok::<(), fingertip_recordings::mcap::McapError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedContact {
     /// Which fingertip.
@@ -86,6 +130,19 @@ pub struct RecordedContact {
 }
 
 /// What one message holds.
+///
+/// ```
+/// use fingertip_recordings::mcap::{Header, Recorded};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let wrench = Recorded::Wrench(Wrench::on_fingertip(Vector3::new(0.3, 0.0, -2.0), Vector3::zeros()));
+/// let header = Header::stamped(0.5, "sensor").unwrap();
+/// let message = wrench.emit(&header);
+/// assert_eq!(Recorded::parse("geometry_msgs/msg/WrenchStamped", &message)?, (header, wrench));
+/// assert_eq!(Recorded::parse("std_msgs/msg/String", &message)?.1, Recorded::Other);
+/// # Ok::<(), fingertip_recordings::mcap::CdrError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Recorded {

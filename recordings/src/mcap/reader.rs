@@ -14,6 +14,21 @@ use super::messages::{Header, Recorded};
 use super::records::Records;
 
 /// One message of a file.
+///
+/// ```
+/// use fingertip_recordings::mcap::{McapReader, McapWriter, Recorded};
+/// use fingertip_wrench::Wrench;
+/// use std::io::Cursor;
+///
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let topic = writer.wrenches("tip/wrench", "sensor")?;
+/// writer.write_wrench(topic, 1.5, &Wrench::zero())?;
+/// let file = writer.finish()?.into_inner();
+/// let entry = McapReader::new(&file[..])?.next_entry()?.unwrap();
+/// assert_eq!((entry.topic.as_str(), entry.frame.as_str(), entry.time), ("tip/wrench", "sensor", 1.5));
+/// assert_eq!(entry.recorded, Recorded::Wrench(Wrench::zero()));
+/// # Ok::<(), fingertip_recordings::mcap::McapError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Its topic.
@@ -30,6 +45,29 @@ pub struct Entry {
 /// [`BufReader`](std::io::BufReader) around a file. The checksum of a chunk is checked before anything in it is
 /// given. A file that was cut is read up to the last whole message, that of a chunk without its end too; the error comes
 /// behind it.
+///
+/// ```
+/// use fingertip_recordings::mcap::{McapError, McapReader, McapWriter};
+/// use fingertip_wrench::Wrench;
+/// use std::io::Cursor;
+///
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let topic = writer.wrenches("tip/wrench", "sensor")?;
+/// for i in 0..1000 {
+///     writer.write_wrench(topic, f64::from(i) * 1e-3, &Wrench::zero())?;
+/// }
+/// let file = writer.finish()?.into_inner();
+/// // The recorder was killed: all whole messages are read, and then it is said that something is missing.
+/// let mut reader = McapReader::new(&file[..file.len() / 2])?;
+/// let cut = loop {
+///     match reader.next_entry() {
+///         Ok(entry) => assert!(entry.is_some()),
+///         Err(error) => break error,
+///     }
+/// };
+/// assert!(matches!(cut, McapError::Cut) && reader.messages() > 300);
+/// # Ok::<(), McapError>(())
+/// ```
 pub struct McapReader<R> {
     records: Records<R>,
     channels: ChannelAccumulator<'static>,

@@ -14,6 +14,24 @@ use super::records::Records;
 use super::writer::options;
 
 /// What was recovered, and what was not.
+///
+/// ```
+/// use fingertip_recordings::mcap::{Compression, McapWriter, recover};
+/// use fingertip_wrench::Wrench;
+/// use std::io::Cursor;
+///
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let topic = writer.wrenches("tip/wrench", "sensor")?;
+/// for i in 0..1000 {
+///     writer.write_wrench(topic, f64::from(i) * 1e-3, &Wrench::zero())?;
+/// }
+/// let file = writer.finish()?.into_inner();
+/// let half = &file[..file.len() / 2];
+/// let (recovered, _) = recover(half, Cursor::new(Vec::new()), Compression::default())?;
+/// assert!(recovered.cut && recovered.damaged_chunks == 0);
+/// assert_eq!(recovered.topics["tip/wrench"], recovered.messages);
+/// # Ok::<(), fingertip_recordings::mcap::McapError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Recovered {

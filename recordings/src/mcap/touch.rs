@@ -6,6 +6,33 @@ use nalgebra::Vector3;
 use super::cdr::{CdrError, CdrReader, CdrWriter};
 
 /// What a fingertip felt, in the frame of its sensor. What there is none of is NaN.
+///
+/// ```
+/// use fingertip_recordings::mcap::{Header, Recorded, RecordedTouch};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // Nothing touches: there is no point, and so on.
+/// let none = Vector3::repeat(f64::NAN);
+/// let touch = RecordedTouch {
+///     number: 7,
+///     time: 0.007,
+///     status: "no force".into(),
+///     load: Wrench::zero(),
+///     point: none,
+///     normal: none,
+///     normal_force: f64::NAN,
+///     tangential_force: none,
+///     spin_torque: f64::NAN,
+///     margin: f64::NAN,
+///     utilisation: f64::NAN,
+///     slip: 1,
+/// };
+/// let message = Recorded::Touch(touch).emit(&Header::default());
+/// let (_, read) = Recorded::parse("fingertip_msgs/msg/Touch", &message)?;
+/// assert!(matches!(read, Recorded::Touch(touch) if touch.number == 7 && touch.point.x.is_nan()));
+/// # Ok::<(), fingertip_recordings::mcap::CdrError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedTouch {
     /// Counted from the start, so that a gap shows.

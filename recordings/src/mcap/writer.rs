@@ -19,6 +19,20 @@ use super::touch::RecordedTouch;
 const OTHERS: &str = "messages of others";
 
 /// A topic of a file that is being written, from the writer that made it.
+///
+/// ```
+/// use fingertip_recordings::mcap::{McapError, McapWriter, RecordedSignals};
+/// use fingertip_wrench::Wrench;
+/// use std::io::Cursor;
+///
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?;
+/// let wrenches = writer.wrenches("tip/wrench", "sensor")?;
+/// writer.write_wrench(wrenches, 0.0, &Wrench::zero())?;
+/// // A topic of wrenches takes no signals.
+/// let refused = writer.write_signals(wrenches, 0.0, RecordedSignals::default()).unwrap_err();
+/// assert!(matches!(refused, McapError::WrongTopic { .. }));
+/// # Ok::<(), McapError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Topic {
     index: usize,
@@ -44,6 +58,26 @@ pub(super) fn options(compression: Compression, profile: &str) -> WriteOptions {
 
 /// Writes wrenches, signals and contacts. Call [`finish`](Self::finish): a file without its end can be
 /// read, but has no index.
+///
+/// ```
+/// use fingertip_recordings::mcap::{McapReader, McapWriter, Recorded};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+/// use std::io::Cursor;
+///
+/// let mut writer = McapWriter::new(Cursor::new(Vec::new()))?; // or a buffered file
+/// let topic = writer.wrenches("tip/wrench", "sensor")?;
+/// let pressed = Wrench::on_fingertip(Vector3::new(0.3, 0.0, -2.0), Vector3::zeros());
+/// writer.write_wrench(topic, 0.0, &Wrench::zero())?;
+/// writer.write_wrench(topic, 0.001, &pressed)?;
+/// let file = writer.finish()?.into_inner();
+///
+/// let mut reader = McapReader::new(&file[..])?;
+/// reader.next_entry()?;
+/// assert_eq!(reader.next_entry()?.map(|entry| entry.recorded), Some(Recorded::Wrench(pressed)));
+/// assert_eq!(reader.next_entry()?, None);
+/// # Ok::<(), fingertip_recordings::mcap::McapError>(())
+/// ```
 pub struct McapWriter<W: Write + Seek> {
     writer: Writer<W>,
     channels: Vec<Channel>,

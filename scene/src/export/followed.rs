@@ -26,7 +26,8 @@ const EVENTS: &str = "
 /// # Errors
 /// Never for the numbers below.
 pub fn contact_events() -> Result<contact::ContactEvents<{T}>, BadTip> {{
-    Ok(contact::ContactEvents::new({noise}, {least_touch_N}, {samples_per_false_event})?)
+    let events = contact::ContactEvents::new({noise}, {least_touch_N}, {samples_per_false_event})?;
+    Ok(events.with_longest_impact({longest_impact_s})?)
 }}
 ";
 

@@ -111,6 +111,7 @@ keys!(KEYS, "Keys of whole sections, section by section.":
     Optional "doubted_share", "the share of samples of the contact itself that are doubted for their noise, 0.001 by default; two in a row that agree are a new contact";
     Optional "least_touch_N", "the smallest force that is a touch; with it, touch, release and blow are told";
     Optional "samples_per_false_event", "so many samples lie between two false events, or more, in the mean; 1e6 by default";
+    Optional "longest_impact_s", "so soon the force of a blow falls to half its peak, or it is a press, 0.05 by default";
 }
 "friction" "": {
     Optional "limit", "how much friction holds: a choice below, `\"coulomb\"` by default";

@@ -80,6 +80,25 @@ fn the_place_of_a_track_is_that_of_all_samples() {
     assert!(pipeline.place_covariance().is_none());
 }
 
+/// How soon a blow must be over stands in the scene: what takes longer is a press.
+#[test]
+fn the_scene_says_how_long_a_blow_may_be() {
+    let impact = |rest: &str| {
+        let tracking = "[tracking]\nspeed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\n";
+        let mut pipeline = scene(&format!("{NOISE}{tracking}{rest}")).pipeline();
+        // It rises at once and falls to 1/e of its peak within 0.1 s.
+        let force = |k: i32| if k < 20 { 0.0 } else { 3.0 * (f64::from(20 - k) / 100.0).exp() };
+        let told = (0..500).filter_map(|k| {
+            let push = Wrench::from_force_at(&(Vector3::z() * 0.013), Vector3::z() * -force(k));
+            pipeline.sense(push, 1e-3).happened.and_then(|happened| happened.impact)
+        });
+        told.map(|impact| impact.peak).collect::<Vec<f64>>()
+    };
+    assert_eq!(impact(""), [0.0; 0]);
+    assert_eq!(impact("longest_impact_s = 0.05\n"), [0.0; 0]);
+    assert_eq!(impact("longest_impact_s = 0.2\n"), [3.0]);
+}
+
 /// What is uncertain of the shape's place adds to the ellipse; through a skin there is one, too.
 #[test]
 fn an_uncertain_place_and_a_skin_widen_the_ellipse() {

@@ -128,6 +128,12 @@ fn faults_are_named() {
             ),
             "`samples_per_false_event`",
         ),
+        (
+            tracked(
+                "speed_m_per_s = 0.01\nturns_within_s = 0.1\nleast_touch_N = 0.1\nlongest_impact_s = 0.0\n",
+            ),
+            "`longest_impact_s`",
+        ),
         (tracked("turns_within_s = 0.1\n"), "speed_m_per_s"),
         (
             with("[grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n"),

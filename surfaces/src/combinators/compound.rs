@@ -19,6 +19,14 @@ use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, Sho
 /// let ball = Sphere::new(Vector3::new(0.0, 0.0, 0.02), 0.009)?;
 /// let finger = Compound::new(shaft, ball);
 /// # let _ = finger;
+/// // The line along the axis passes where shaft and ball overlap, and crosses the surface twice.
+/// use fingertip_surfaces::ActiveSurface;
+/// use fingertip_wrench::Line;
+/// let line = Line { point: Vector3::new(0.0, 0.0, 0.05), direction: -Vector3::z() };
+/// let mut heights = Vec::new();
+/// finger.crossings(&line, |crossing| heights.push(crossing.point.z));
+/// heights.sort_by(f64::total_cmp);
+/// assert!(heights.len() == 2 && (heights[0] + 0.02).abs() < 1e-15 && (heights[1] - 0.029).abs() < 1e-15);
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

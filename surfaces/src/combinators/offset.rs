@@ -17,6 +17,17 @@ use crate::{
 /// has the same thickness everywhere.
 ///
 /// Outside a convex shape it is convex and smooth. Inside, it ends where it would fold over itself.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Ellipsoid, Offset};
+/// use nalgebra::Vector3;
+///
+/// // A skin of 2 mm over an ellipsoid.
+/// let tip = Offset::new(Ellipsoid::new(Vector3::new(0.008, 0.010, 0.015))?, 0.002)?;
+/// assert!(tip.contains(&Vector3::new(0.0099, 0.0, 0.0)) && !tip.contains(&Vector3::new(0.0101, 0.0, 0.0)));
+/// assert!(tip.contains(&Vector3::new(0.0, 0.0, 0.0169)) && !tip.contains(&Vector3::new(0.0, 0.0, 0.0171)));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offset<T: Real, S> {
     surface: S,

@@ -23,6 +23,10 @@ use crate::{
 /// )?;
 /// let tip = Posed::new(Ellipsoid::new(Vector3::new(0.008, 0.010, 0.015))?, sensor_from_shape);
 /// # let _ = tip;
+/// // What was its y axis lies along −x now.
+/// use fingertip_surfaces::ActiveSurface;
+/// assert!(tip.contains(&Vector3::new(-0.0099, 0.0, 0.04)));
+/// assert!(!tip.contains(&Vector3::new(0.0, 0.0099, 0.04)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

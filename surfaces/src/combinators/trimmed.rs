@@ -9,6 +9,29 @@ use crate::{
 };
 
 /// A part of space. Closures `Fn(&Vector3<T>) -> bool` are regions too.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Region, Sphere, Trimmed};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// /// Within a cone around the z axis.
+/// struct Around {
+///     greatest_slope: f64,
+/// }
+/// impl Region<f64> for Around {
+///     fn includes(&self, point: &Vector3<f64>) -> bool {
+///         point.xy().norm() <= self.greatest_slope * point.z
+///     }
+/// }
+///
+/// let pad = Trimmed::new(Sphere::centred(0.013)?, Around { greatest_slope: 1.0 });
+/// let line = Line { point: Vector3::new(0.0, 0.0, 0.05), direction: -Vector3::z() };
+/// let mut active = Vec::new();
+/// pad.crossings(&line, |crossing| active.push(crossing.active));
+/// assert_eq!(active, [true, false]); // the top, and the bottom
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 pub trait Region<T: Real> {
     /// `true` if the point belongs to it.
     fn includes(&self, point: &Vector3<T>) -> bool;
@@ -22,6 +45,17 @@ impl<T: Real, F: Fn(&Vector3<T>) -> bool> Region<T> for F {
 }
 
 /// All points on one side of a plane.
+///
+/// ```
+/// use fingertip_surfaces::{HalfSpace, Region};
+/// use nalgebra::Vector3;
+///
+/// // All that is more than 5 mm up.
+/// let above = HalfSpace::new(Vector3::new(0.0, 0.0, 0.005), Vector3::z())?;
+/// assert!(above.includes(&Vector3::new(0.1, 0.1, 0.006)));
+/// assert!(!above.includes(&Vector3::new(0.0, 0.0, 0.004)));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace<T: Real> {
     point: Vector3<T>,
@@ -97,6 +131,12 @@ stored! {
 /// // Or, with any condition:
 /// let band = Trimmed::new(Sphere::centred(0.013)?, |p: &Vector3<f64>| p.z.abs() < 0.004);
 /// # let _ = (dome, band);
+/// // A line across the ball 5 mm up meets the dome, but not the band.
+/// use fingertip_surfaces::ActiveSurface;
+/// use fingertip_wrench::Line;
+/// let line = Line { point: Vector3::new(-0.05, 0.0, 0.005), direction: Vector3::x() };
+/// dome.crossings(&line, |crossing| assert!(crossing.active));
+/// band.crossings(&line, |crossing| assert!(!crossing.active));
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

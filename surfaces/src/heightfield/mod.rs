@@ -15,6 +15,20 @@ use crate::{ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Extent, 
 /// [`Posed`](crate::Posed) puts it elsewhere. It ends where the grid ends.
 ///
 /// A scan of a worn or moulded pad comes like this.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Heightfield};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A square of 20 mm, 2 mm high at the far edge and flat at the near one.
+/// let pad = Heightfield::new([-0.01, -0.01], [0.02, 0.02], 2, vec![0.0, 0.0, 0.002, 0.002])?;
+/// let line = Line { point: Vector3::new(0.003, 0.0, 0.05), direction: -Vector3::z() };
+/// let mut heights = Vec::new();
+/// pad.crossings(&line, |crossing| heights.push(crossing.point.z));
+/// assert!(heights.len() == 1 && (heights[0] - 0.001_f64).abs() < 1e-15); // half-way
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heightfield<T: Real> {
     /// Corner of the grid with the least x and y.

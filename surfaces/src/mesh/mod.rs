@@ -37,6 +37,21 @@ pub use self::topology::MeshError;
 /// Crossings are watertight: no line slips through an edge or a vertex, and none is counted twice
 /// there. The tree over the triangles is built once; a query takes a time that grows with the
 /// logarithm of their number.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Mesh};
+/// use nalgebra::Vector3;
+///
+/// // A corner of a cube, drawn in millimetres.
+/// let obj = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+/// let tip = Mesh::from_obj(obj, 0.001)?;
+/// assert_eq!(tip.triangle_count(), 4);
+/// // Its slanted face is where x + y + z is 9 mm.
+/// assert!(tip.contains(&Vector3::repeat(0.0029)) && !tip.contains(&Vector3::repeat(0.0031)));
+/// let normal = tip.normal(&Vector3::repeat(0.003));
+/// assert!((normal - Vector3::repeat(1.0_f64 / 3.0_f64.sqrt())).amax() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::MeshError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh<T: Real> {
     centre: Vector3<T>,

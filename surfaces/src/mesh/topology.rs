@@ -11,6 +11,17 @@ use thiserror::Error;
 use crate::numeric::vectors::is_finite;
 
 /// Why a mesh cannot be used.
+///
+/// ```
+/// use fingertip_surfaces::{Mesh, MeshError};
+///
+/// // One of the four faces is missing.
+/// let obj = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+/// let refused = Mesh::<f64>::from_obj(obj, 0.001).unwrap_err();
+/// assert_eq!(refused, MeshError::BadEdges { open: 3, inconsistent: 0 });
+/// let told = "the mesh has 3 open edges and 0 whose triangles face opposite ways";
+/// assert_eq!(refused.to_string(), told);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MeshError {

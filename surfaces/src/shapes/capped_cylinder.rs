@@ -9,6 +9,18 @@ use crate::{
 };
 
 /// A circular cylinder with flat ends, all of it active: a [`Frustum`] with equal radii.
+///
+/// ```
+/// use fingertip_surfaces::{CappedCylinder, SignedDistance};
+/// use nalgebra::Vector3;
+///
+/// // Along z, 6 mm in radius, from −20 mm to 20 mm.
+/// let tip = CappedCylinder::new(Vector3::zeros(), Vector3::z(), 0.006, 0.02)?;
+/// let over_the_end = tip.signed_distance(&Vector3::new(0.003, 0.0, 0.021));
+/// assert!((over_the_end.distance - 0.001_f64).abs() < 1e-15);
+/// assert_eq!(over_the_end.normal, Vector3::z());
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CappedCylinder<T: Real> {
     solid: Frustum<T>,

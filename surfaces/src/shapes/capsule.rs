@@ -14,6 +14,20 @@ use crate::{
 };
 
 /// All points at one distance from a straight segment.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Capsule};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A segment from −10 mm to 10 mm along z, and all within 5 mm of it.
+/// let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.005)?;
+/// let line = Line { point: Vector3::new(0.0, 0.0, 0.05), direction: -Vector3::z() };
+/// let mut heights = Vec::new();
+/// tip.crossings(&line, |crossing| heights.push(crossing.point.z));
+/// assert!((heights[0] - 0.015_f64).abs() < 1e-15 && (heights[1] + 0.015).abs() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule<T: Real> {
     /// From the middle along the segment.

@@ -15,6 +15,21 @@ use crate::{
 };
 
 /// The side of a circular cone, unbounded or active down to a depth.
+///
+/// ```
+/// use core::f64::consts::FRAC_PI_6;
+/// use fingertip_surfaces::{ActiveSurface, Cone};
+/// use nalgebra::Vector3;
+///
+/// // A point upwards, whose side falls 30° beside the axis, down to 20 mm.
+/// let tip = Cone::new(Vector3::zeros(), -Vector3::z(), FRAC_PI_6)?.with_depth(0.02)?;
+/// // At a depth of 10 mm it is 10 mm · tan 30° wide; the normal points outward and up.
+/// let rim = 0.01 * FRAC_PI_6.tan();
+/// let normal = tip.normal(&Vector3::new(rim, 0.0, -0.01));
+/// assert!((normal - Vector3::new(FRAC_PI_6.cos(), 0.0, FRAC_PI_6.sin())).amax() < 1e-15);
+/// assert_eq!(tip.depth(), Some(0.02));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone<T: Real> {
     /// From the apex into the cone.

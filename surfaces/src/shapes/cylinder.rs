@@ -11,6 +11,23 @@ use crate::{
 };
 
 /// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Cylinder};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // Around z; what is more than 20 mm from its middle holds the sensor and may not touch.
+/// let tip = Cylinder::new(Vector3::zeros(), Vector3::z(), 0.008)?.with_half_length(0.02)?;
+/// for (height, active) in [(0.019, true), (0.021, false)] {
+///     let line = Line { point: Vector3::new(-0.05, 0.0, height), direction: Vector3::x() };
+///     tip.crossings(&line, |crossing| {
+///         assert_eq!(f64::abs(crossing.point.x), 0.008);
+///         assert_eq!(crossing.active, active);
+///     });
+/// }
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder<T: Real> {
     centre: Vector3<T>,

@@ -10,6 +10,20 @@ use crate::{
 };
 
 /// A plane of which only a disk is active.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Disk};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A flat end of 5 mm radius, 30 mm up.
+/// let tip = Disk::new(Vector3::new(0.0, 0.0, 0.03), Vector3::z(), 0.005)?;
+/// for (x, active) in [(0.004, true), (0.006, false)] {
+///     let line = Line { point: Vector3::new(x, 0.0, 0.05), direction: -Vector3::z() };
+///     tip.crossings(&line, |crossing| assert_eq!((crossing.point.z, crossing.active), (0.03, active)));
+/// }
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disk<T: Real> {
     plane: Plane<T>,

@@ -13,6 +13,20 @@ use crate::{
 
 /// An ellipsoid about the origin, its axes along x, y and z; [`Posed`](crate::Posed) puts it
 /// elsewhere.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Ellipsoid};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// let tip = Ellipsoid::new(Vector3::new(0.010, 0.010, 0.015))?;
+/// // 6 mm beside the axis, where z is 15 mm · √(1 − 0.6²).
+/// let line = Line { point: Vector3::new(0.006, 0.0, 0.05), direction: -Vector3::z() };
+/// let mut heights = Vec::new();
+/// tip.crossings(&line, |crossing| heights.push(crossing.point.z));
+/// assert!((heights[0] - 0.012_f64).abs() < 1e-15 && (heights[1] + 0.012).abs() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoid<T: Real> {
     semi_axes: Vector3<T>,

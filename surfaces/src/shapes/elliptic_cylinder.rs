@@ -16,6 +16,21 @@ use crate::{
 };
 
 /// How an elliptic cylinder ends.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, CylinderEnds, EllipticCylinder};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A line down the axis meets flat ends, and no open ones.
+/// let line = Line { point: Vector3::new(0.0, 0.0, 0.05), direction: -Vector3::z() };
+/// for (ends, expected) in [(CylinderEnds::Open(0.02), 0), (CylinderEnds::Capped(0.02), 2)] {
+///     let mut met = 0;
+///     EllipticCylinder::new([0.008, 0.005], ends)?.crossings(&line, |_| met += 1);
+///     assert_eq!(met, expected);
+/// }
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -30,6 +45,19 @@ pub enum CylinderEnds<T> {
 
 /// A cylinder around the z axis, across which it is an ellipse with its axes along x and y;
 /// [`Posed`](crate::Posed) puts it elsewhere.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, CylinderEnds, EllipticCylinder};
+/// use nalgebra::Vector3;
+///
+/// // The pad of a human finger: broad, flat, along z.
+/// let pad = EllipticCylinder::new([0.008, 0.005], CylinderEnds::Open(0.02))?;
+/// assert!(pad.contains(&Vector3::new(0.0079, 0.0, 0.01)));
+/// assert!(!pad.contains(&Vector3::new(0.0, 0.0051, 0.01)));
+/// let normal = pad.normal(&Vector3::new(0.0, 0.005, 0.0));
+/// assert!((normal - Vector3::y()).amax() < 1e-15_f64);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EllipticCylinder<T: Real> {
     semi_axes: [T; 2],

@@ -11,6 +11,24 @@ use crate::{BadShape, ImplicitSurface, Term, Topology};
 const DEEPEST: usize = 24;
 
 /// A step of a [`Formula`], which takes its operands from the end of a list of values and puts its result there.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Formula, FormulaStep, Implicit};
+/// use nalgebra::Vector3;
+///
+/// // Two balls of 10 mm, 8 mm up and down, melt into one: min(z − 8 mm, …) is written as |z| − 8 mm.
+/// let steps = vec![
+///     FormulaStep::Coordinate(0), FormulaStep::Power(2),
+///     FormulaStep::Coordinate(1), FormulaStep::Power(2), FormulaStep::Add,
+///     FormulaStep::Coordinate(2), FormulaStep::Abs, FormulaStep::Number(0.008), FormulaStep::Subtract,
+///     FormulaStep::Power(2), FormulaStep::Add,
+///     FormulaStep::Number(0.01 * 0.01), FormulaStep::Subtract,
+/// ];
+/// let tip = Implicit::new(Formula::new(steps, Vector3::zeros(), 0.019)?)?;
+/// assert!(tip.contains(&Vector3::new(0.0, 0.0, 0.0179)) && !tip.contains(&Vector3::new(0.0, 0.0, 0.0181)));
+/// assert!(tip.contains(&Vector3::new(0.0059, 0.0, 0.0)) && !tip.contains(&Vector3::new(0.0061, 0.0, 0.0)));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FormulaStep<T> {

@@ -17,6 +17,18 @@ use crate::{
 
 /// A truncated circular cone with flat ends, all of it active; with one radius zero, a closed
 /// cone; with equal radii, a closed cylinder.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Frustum};
+/// use nalgebra::Vector3;
+///
+/// // 10 mm high, 6 mm in radius at its base and 4 mm at its top: 5 mm half-way.
+/// let tip = Frustum::new(Vector3::zeros(), Vector3::z(), 0.01, 0.006, 0.004)?;
+/// assert!(tip.contains(&Vector3::new(0.0049, 0.0, 0.005)));
+/// assert!(!tip.contains(&Vector3::new(0.0051, 0.0, 0.005)));
+/// assert_eq!(tip.normal(&Vector3::new(0.001, 0.0, 0.01)), Vector3::z());
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum<T: Real> {
     /// From the centre of the base towards the top.

@@ -32,6 +32,11 @@ use crate::{
 ///
 /// let pillow = Implicit::new(Pillow)?;
 /// # let _ = pillow;
+/// // The corner of a pillow is farther out than the middle of its face: 10 mm · 3^(1/4) = 13.16 mm.
+/// use fingertip_surfaces::ActiveSurface;
+/// let diagonal = Vector3::repeat(1.0).normalize();
+/// assert!(pillow.contains(&(diagonal * 0.0131)) && !pillow.contains(&(diagonal * 0.0132)));
+/// assert!(!pillow.contains(&Vector3::new(0.0, 0.0, 0.0101)));
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
 pub trait ImplicitSurface<T: Real> {
@@ -85,6 +90,33 @@ pub trait ImplicitSurface<T: Real> {
 /// An [`ImplicitSurface`] as an [`ActiveSurface`].
 ///
 /// All crossings are found but those closer to each other than 10⁻⁶ of the ball's radius, which may count as none.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Implicit, ImplicitSurface, Term};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// /// A paraboloid cut off by a ball: `max(z + (x² + y²)/R, x² + y² + z² − R²)`, in units of R = 10 mm.
+/// struct Drop;
+/// impl ImplicitSurface<f64> for Drop {
+///     fn formula(&self, [x, y, z]: [Term<f64>; 3]) -> Term<f64> {
+///         let (x, y, z) = (x / 0.01, y / 0.01, z / 0.01);
+///         let across = x * x + y * y;
+///         (z + across).max(across + z * z - 1.0)
+///     }
+///     fn ball(&self) -> (Vector3<f64>, f64) {
+///         (Vector3::zeros(), 0.0101)
+///     }
+/// }
+///
+/// let tip = Implicit::new(Drop)?;
+/// let line = Line { point: Vector3::new(0.005, 0.0, 0.05), direction: -Vector3::z() };
+/// let mut heights = Vec::new();
+/// tip.crossings(&line, |crossing| heights.push(crossing.point.z));
+/// heights.sort_by(f64::total_cmp);
+/// assert!(heights.len() == 2 && (heights[1] + 0.0025).abs() < 1e-12); // −0.5² · 10 mm
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Implicit<T: Real, S> {
     surface: S,

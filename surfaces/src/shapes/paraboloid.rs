@@ -15,6 +15,21 @@ use crate::{
 /// `z = −x²/(2·R_x) − y²/(2·R_y)`; [`Posed`](crate::Posed) puts it elsewhere.
 ///
 /// The radii of curvature at the top are what a calibration of a gently curved pad finds.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Paraboloid};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A pad curved with 20 mm along x and 40 mm along y.
+/// let pad = Paraboloid::new([0.02, 0.04])?.with_depth(0.003)?;
+/// let line = Line { point: Vector3::new(0.004, 0.004, 0.05), direction: -Vector3::z() };
+/// let mut heights = Vec::new();
+/// pad.crossings(&line, |crossing| heights.push(crossing.point.z));
+/// // −4² mm²/(2·20 mm) − 4² mm²/(2·40 mm)
+/// assert!(heights.len() == 1 && (heights[0] + 0.0006_f64).abs() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paraboloid<T: Real> {
     radii: [T; 2],

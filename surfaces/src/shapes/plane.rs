@@ -11,6 +11,17 @@ use crate::{
 };
 
 /// A plane; the fingertip is on the side away from the normal.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Plane};
+/// use nalgebra::Vector3;
+///
+/// // A flat fingertip that ends 30 mm over the sensor.
+/// let end = Plane::new(Vector3::new(0.0, 0.0, 0.03), Vector3::z())?;
+/// assert!((end.height(&Vector3::new(0.1, 0.2, 0.031)) - 0.001_f64).abs() < 1e-15);
+/// assert!(end.contains(&Vector3::zeros()));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane<T: Real> {
     point: Vector3<T>,

@@ -6,6 +6,16 @@ use crate::numeric::twofold::Twofold;
 use crate::{BadShape, LocalSurface};
 
 /// One point of a profile, and how the curve goes on from there to the next.
+///
+/// ```
+/// use fingertip_surfaces::Revolution;
+///
+/// // A cone of millimetres, with a round end.
+/// let tip = Revolution::from_profile([[0.0, 0.004_f64], [0.008, 0.003], [0.010, 0.0]])?;
+/// let points = tip.knots().iter().map(|knot| knot.point()).collect::<Vec<_>>();
+/// assert_eq!(points, [[0.0, 0.004], [0.008, 0.003], [0.010, 0.0]]);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knot<T: Real> {
     pub(super) z: T,

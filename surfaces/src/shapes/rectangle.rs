@@ -10,6 +10,21 @@ use crate::{
 };
 
 /// A plane of which only a rectangle is active.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Rectangle};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A pad of 20 mm by 10 mm, 30 mm up; x × y makes its normal point up.
+/// let pad = Rectangle::new(Vector3::new(0.0, 0.0, 0.03), Vector3::x() * 0.01, Vector3::y() * 0.005)?;
+/// assert_eq!(pad.plane().outward(), Vector3::z());
+/// for (y, active) in [(0.004, true), (0.006, false)] {
+///     let line = Line { point: Vector3::new(0.009, y, 0.05), direction: -Vector3::z() };
+///     pad.crossings(&line, |crossing| assert_eq!((crossing.point.z, crossing.active), (0.03, active)));
+/// }
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle<T: Real> {
     plane: Plane<T>,

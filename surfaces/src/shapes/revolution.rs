@@ -38,6 +38,11 @@ use crate::{
 ///     [0.014, 0.0],
 /// ])?;
 /// # let _ = tip;
+/// // At 8 mm it is 7.4 mm thick, which is half a millimetre between these two.
+/// use fingertip_surfaces::ActiveSurface;
+/// use nalgebra::Vector3;
+/// assert!(tip.contains(&Vector3::new(0.0069, 0.0, 0.008)));
+/// assert!(!tip.contains(&Vector3::new(0.0, 0.0079, 0.008)));
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

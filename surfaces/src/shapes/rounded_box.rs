@@ -14,6 +14,19 @@ use crate::{
 
 /// A box about the origin, its edges along x, y and z and rounded; [`Posed`](crate::Posed) puts it
 /// elsewhere.
+///
+/// ```
+/// use fingertip_surfaces::{RoundedBox, SignedDistance};
+/// use nalgebra::Vector3;
+///
+/// // 20 mm × 20 mm × 10 mm, its edges rounded with 2 mm.
+/// let pad = RoundedBox::new(Vector3::new(0.01, 0.01, 0.005), 0.002)?;
+/// assert!((pad.signed_distance(&Vector3::new(0.0, 0.0, 0.006)).distance - 0.001_f64).abs() < 1e-15);
+/// // Where the sharp edge was, the round one is 2 mm · (√2 − 1) away.
+/// let edge = pad.signed_distance(&Vector3::new(0.01, 0.0, 0.005));
+/// assert!((edge.distance - 0.002 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundedBox<T: Real> {
     /// Of the sharp box that is one rounding radius smaller all around.

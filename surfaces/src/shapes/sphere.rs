@@ -11,6 +11,21 @@ use crate::{
 };
 
 /// A sphere, its inside being the fingertip.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A ball of 13 mm, 30 mm over the sensor.
+/// let tip = Sphere::new(Vector3::new(0.0, 0.0, 0.03), 0.013)?;
+/// // 5 mm beside the axis, where the surface is 12 mm over the centre: 5² + 12² = 13².
+/// let line = Line { point: Vector3::new(0.005, 0.0, 0.1), direction: -Vector3::z() };
+/// let mut heights = Vec::new();
+/// tip.crossings(&line, |crossing| heights.push(crossing.point.z));
+/// assert!((heights[0] - 0.042_f64).abs() < 1e-15 && (heights[1] - 0.018).abs() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere<T: Real> {
     centre: Vector3<T>,

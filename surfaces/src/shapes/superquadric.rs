@@ -15,6 +15,17 @@ use crate::{
 /// [`Posed`](crate::Posed) puts it elsewhere.
 ///
 /// Exponents of 1 make an ellipsoid, small ones a box with round edges, 2 an octahedron.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Superquadric};
+/// use nalgebra::Vector3;
+///
+/// // Exponents of 1 make a ball, of 0.5 a box with round edges: |x|⁴ + |y|⁴ + |z|⁴ = (10 mm)⁴.
+/// let corner = Vector3::repeat(0.0075);
+/// assert!(!Superquadric::new(Vector3::repeat(0.01), [1.0, 1.0])?.contains(&corner));
+/// assert!(Superquadric::new(Vector3::repeat(0.01), [0.5, 0.5])?.contains(&corner)); // 3 · 0.75⁴ = 0.95
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Superquadric<T: Real> {
     semi_axes: Vector3<T>,

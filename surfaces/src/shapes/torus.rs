@@ -13,6 +13,24 @@ use crate::{
 };
 
 /// A ring around the z axis; [`Posed`](crate::Posed) puts it elsewhere.
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Torus};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// // A ring of 20 mm, its tube 3 mm in radius.
+/// let ring = Torus::new(0.02, 0.003)?;
+/// let line = Line { point: Vector3::new(-0.05, 0.0, 0.0), direction: Vector3::x() };
+/// let mut places = Vec::new();
+/// ring.crossings(&line, |crossing| places.push(crossing.point.x));
+/// places.sort_by(f64::total_cmp);
+/// for (found, expected) in places.iter().zip([-0.023, -0.017, 0.017, 0.023]) {
+///     assert!((found - expected).abs() < 1e-15);
+/// }
+/// assert_eq!(places.len(), 4);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torus<T: Real> {
     ring_radius: T,

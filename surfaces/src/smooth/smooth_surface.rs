@@ -6,6 +6,19 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use crate::ActiveSurface;
 
 /// A function that vanishes on a surface and grows outward, with its derivatives at a point.
+///
+/// ```
+/// use fingertip_surfaces::{SmoothSurface, Sphere};
+/// use nalgebra::Vector3;
+///
+/// let level = Sphere::centred(0.01)?.level(&Vector3::new(0.0, 0.0, 0.01));
+/// let (normal, _) = level.normal().unwrap();
+/// assert_eq!(normal, Vector3::z());
+/// // As the point moves to the side, the normal turns by the reciprocal of the radius.
+/// let turned = level.shape_operator() * Vector3::x();
+/// assert!((turned - Vector3::x() * 100.0).amax() < 1e-12_f64);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level<T: Real> {
     /// The value, in any unit; best if it grows about linearly across the surface, as a distance
@@ -52,6 +65,15 @@ impl<T: Real> Level<T> {
 }
 
 /// What is known of a surface as a whole: it tells how many contacts there can be.
+///
+/// ```
+/// use fingertip_surfaces::{SmoothSurface, Sphere, Topology, Torus};
+///
+/// assert_eq!(Sphere::centred(0.013)?.topology(), Topology::Convex);
+/// // A ring has a hole.
+/// assert_eq!(Torus::new(0.02, 0.003)?.topology(), Topology::Closed { euler_characteristic: 0 });
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Topology {
@@ -67,6 +89,17 @@ pub enum Topology {
 }
 
 /// A ball around the part of a surface that matters.
+///
+/// ```
+/// use fingertip_surfaces::{Capsule, SmoothSurface};
+/// use nalgebra::Vector3;
+///
+/// // A capsule of 5 mm around a segment of ±10 mm fits into a ball of 15 mm.
+/// let extent = Capsule::new(Vector3::y(), Vector3::z(), 0.01, 0.005)?.extent();
+/// assert_eq!(extent.centre, Vector3::y());
+/// assert!((extent.radius - 0.015_f64).abs() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent<T: Real> {
     /// Centre of the ball \[m\].
@@ -76,6 +109,20 @@ pub struct Extent<T: Real> {
 }
 
 /// A place where the normal turns though the point stays.
+///
+/// ```
+/// use fingertip_surfaces::{CappedCylinder, Corner, SmoothSurface};
+/// use nalgebra::Vector3;
+///
+/// // The rim of a cylinder of 5 mm, touched between its end and its side.
+/// let tip = CappedCylinder::new(Vector3::zeros(), Vector3::z(), 0.005, 0.02)?;
+/// let normal = Vector3::new(0.6, 0.0, 0.8);
+/// let corner = tip.corner(&Vector3::new(0.005, 0.0, 0.02), &normal).unwrap();
+/// let Corner::Edge { direction, bend } = corner else { unreachable!("a rim is no tip") };
+/// assert!((f64::abs(direction.y) - 1.0).abs() < 1e-15);
+/// assert!((bend - 0.6_f64 / 0.005).abs() < 1e-12); // the circle's curvature, as the normal sees it
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Corner<T: Real> {
     /// An edge.
@@ -100,6 +147,21 @@ pub enum Corner<T: Real> {
 /// [`level`](Self::level) shall be finite in the extent. Where second derivatives are hard to
 /// come by, [`hessian_by_differences`] takes them from the gradient: contacts lose no accuracy by
 /// it, only time.
+///
+/// ```
+/// use fingertip_surfaces::{BadShape, Ellipsoid, SmoothSurface};
+/// use nalgebra::Vector3;
+///
+/// /// The radius of the roundest curve through a point of a surface.
+/// fn least_radius(surface: &impl SmoothSurface<f64>, point: &Vector3<f64>) -> f64 {
+///     surface.shape_operator(point).symmetric_eigenvalues().max().recip()
+/// }
+///
+/// // At its end an ellipsoid is curved by c/a² and c/b².
+/// let tip = Ellipsoid::new(Vector3::new(0.008, 0.010, 0.016))?;
+/// assert!((least_radius(&tip, &Vector3::new(0.0, 0.0, 0.016)) - 0.004).abs() < 1e-15);
+/// # Ok::<(), BadShape>(())
+/// ```
 pub trait SmoothSurface<T: Real>: ActiveSurface<T> {
     /// The level function and its derivatives at a point near the surface.
     fn level(&self, point: &Vector3<T>) -> Level<T>;

@@ -4,6 +4,28 @@ use fingertip_wrench::{Line, Real};
 use thiserror::Error;
 
 /// What a surface has to obey.
+///
+/// ```
+/// use fingertip_surfaces::testing::{Law, SurfaceLaws};
+/// use fingertip_surfaces::{ActiveSurface, Crossing, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// /// Forgets where a line leaves.
+/// struct Entered(Sphere<f64>);
+/// impl ActiveSurface<f64> for Entered {
+///     fn crossings(&self, line: &Line<f64>, mut visit: impl FnMut(Crossing<f64>)) {
+///         let enters = |crossing: &Crossing<f64>| crossing.normal.dot(&line.direction) < 0.0;
+///         self.0.crossings(line, |crossing| if enters(&crossing) { visit(crossing) });
+///     }
+/// }
+///
+/// let laws = SurfaceLaws::around(Vector3::zeros(), 0.013);
+/// let broken = laws.check(&Entered(Sphere::centred(0.013)?)).unwrap_err();
+/// // A line along the normal leaves where it was entered, and is not seen there.
+/// assert_eq!(broken.law, Law::CrossingOnSurface);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Law {
@@ -52,6 +74,29 @@ pub enum Law {
 }
 
 /// A law that a surface breaks, and the line on which it does.
+///
+/// ```
+/// use fingertip_surfaces::testing::{Law, SurfaceLaws};
+/// use fingertip_surfaces::{ActiveSurface, Crossing, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// /// Normals as long as the radius.
+/// struct Long(Sphere<f64>);
+/// impl ActiveSurface<f64> for Long {
+///     fn crossings(&self, line: &Line<f64>, mut visit: impl FnMut(Crossing<f64>)) {
+///         let lengthened = |crossing: Crossing<f64>| Crossing { normal: crossing.normal * 0.013, ..crossing };
+///         self.0.crossings(line, |crossing| visit(lengthened(crossing)));
+///     }
+/// }
+///
+/// let laws = SurfaceLaws::around(Vector3::zeros(), 0.013);
+/// let broken = laws.check(&Long(Sphere::centred(0.013)?)).unwrap_err();
+/// assert_eq!(broken.law, Law::UnitNormal);
+/// assert!((broken.found - (1.0 - 0.013)).abs() < 1e-12);
+/// assert!(broken.to_string().starts_with("UnitNormal is broken on the line through "));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{law:?} is broken on the line through {line:?}: {found} is more than {allowed}")]
 pub struct Violation<T: Real> {

@@ -11,6 +11,21 @@ use crate::ActiveSurface;
 use crate::numeric::vectors::{any_perpendicular, length, unit_or};
 
 /// Tries a surface with random lines and checks every [`Law`].
+///
+/// ```
+/// use fingertip_surfaces::testing::SurfaceLaws;
+/// use fingertip_surfaces::{CappedCylinder, Plane};
+/// use nalgebra::Vector3;
+///
+/// let cylinder = CappedCylinder::new(Vector3::zeros(), Vector3::z(), 0.006, 0.02)?;
+/// let laws = SurfaceLaws::around(Vector3::zeros(), 0.021_f64).lines(200).seed(7);
+/// assert_eq!(laws.with_edges().check(&cylinder), Ok(()));
+/// // Not every line that enters the other side of a plane leaves it again.
+/// let plane = Plane::new(Vector3::zeros(), Vector3::z())?;
+/// assert!(laws.check(&plane).is_err());
+/// assert_eq!(laws.open().check(&plane), Ok(()));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceLaws<T: Real> {
     pub(super) centre: Vector3<T>,

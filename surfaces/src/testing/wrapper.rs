@@ -11,6 +11,29 @@ use crate::numeric::vectors::length;
 use crate::{ActiveSurface, Entry, ForceLine, Shortcuts};
 
 /// What a wrapper keeps of the shape inside, beside its answers; each includes those before.
+///
+/// ```
+/// use fingertip_surfaces::testing::{Kept, SurfaceLaws};
+/// use fingertip_surfaces::{ActiveSurface, ClosestApproach, Crossing, Sphere};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// /// Answers as the sphere does, and has no shortcuts.
+/// struct Slow(Sphere<f64>);
+/// impl ActiveSurface<f64> for Slow {
+///     fn crossings(&self, line: &Line<f64>, visit: impl FnMut(Crossing<f64>)) {
+///         self.0.crossings(line, visit);
+///     }
+///     fn closest_approach(&self, line: &Line<f64>) -> Option<ClosestApproach<f64>> {
+///         self.0.closest_approach(line)
+///     }
+/// }
+///
+/// let (sphere, laws) = (Sphere::centred(0.013)?, SurfaceLaws::around(Vector3::zeros(), 0.013));
+/// assert_eq!(laws.check_wrapper(&sphere, &Slow(sphere), Kept::Answers), Ok(()));
+/// assert!(laws.check_wrapper(&sphere, &Slow(sphere), Kept::All).is_err());
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kept {
     /// None of its [`Shortcuts`].

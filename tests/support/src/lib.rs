@@ -3,6 +3,7 @@
 
 extern crate alloc;
 
+mod block_on;
 pub mod drawn;
 pub mod mcap;
 mod moving_body;
@@ -10,6 +11,7 @@ mod recordings;
 mod unchanged;
 mod worst;
 
+pub use block_on::block_on;
 pub use moving_body::{Moved, MovingBody};
 pub use recordings::{recording, recording_text};
 pub use unchanged::Unchanged;

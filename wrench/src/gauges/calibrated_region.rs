@@ -31,6 +31,15 @@ pub struct CalibratedRegion<T: Real, const N: usize> {
 }
 
 /// A region whose numbers are none.
+///
+/// ```
+/// use fingertip_wrench::CalibratedRegion;
+/// use nalgebra::{SMatrix, SVector};
+///
+/// let whitening = SMatrix::<f64, 6, 6>::from_diagonal_element(f64::NAN);
+/// let refused = CalibratedRegion::new(SVector::zeros(), whitening).unwrap_err();
+/// assert_eq!(refused.to_string(), "a number of the region that was calibrated is not finite");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("a number of the region that was calibrated is not finite")]
 pub struct BadRegion;

@@ -45,6 +45,29 @@ pub struct ConsistencyCheck<T: Real, const N: usize> {
 }
 
 /// What the signals say about themselves. Gauges count from 0.
+///
+/// ```
+/// use fingertip_wrench::{ConsistencyCheck, LeastSquares, SensorMatrix, Verdict};
+/// use nalgebra::{SMatrix, SVector, Vector6};
+///
+/// // A gauge for each load, and two more that see all of them in different proportions.
+/// let matrix = SMatrix::<f64, 8, 6>::from_fn(|gauge, axis| match gauge {
+///     6 => 1.0,
+///     7 => 1.0 + axis as f64,
+///     _ => if gauge == axis { 1.0 } else { 0.0 },
+/// });
+/// let solver = LeastSquares::new(&SensorMatrix::new(matrix, Vector6::repeat(1.0))?)?;
+/// let check = ConsistencyCheck::new(&solver, &SVector::repeat(1e-3), 1e-4)?;
+///
+/// let mut signals = matrix * Vector6::repeat(0.1);
+/// assert_eq!(check.verdict(&solver, &signals), Verdict::Consistent);
+/// signals[2] += 0.25;
+/// let verdict = check.verdict(&solver, &signals);
+/// assert!(matches!(verdict, Verdict::Faulty { gauge: 2, error, .. } if (error - 0.25).abs() < 1e-12));
+/// signals[4] -= 0.5;
+/// assert_eq!(check.verdict(&solver, &signals), Verdict::Inconsistent);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict<T: Real, const N: usize> {
     /// A load explains all signals to within their noise.
@@ -69,6 +92,36 @@ pub enum Verdict<T: Real, const N: usize> {
 }
 
 /// How a gauge fails.
+///
+/// ```
+/// use fingertip_wrench::{ConsistencyCheck, Fault, LeastSquares, SensorMatrix, Verdict};
+/// use nalgebra::{SMatrix, SVector, Vector6};
+///
+/// // A gauge for each load, and two more that see all of them in different proportions.
+/// let matrix = SMatrix::<f64, 8, 6>::from_fn(|gauge, axis| match gauge {
+///     6 => 1.0,
+///     7 => 1.0 + axis as f64,
+///     _ => if gauge == axis { 1.0 } else { 0.0 },
+/// });
+/// let solver = LeastSquares::new(&SensorMatrix::new(matrix, Vector6::repeat(1.0))?)?;
+/// // Signals are linear between -5 V and 5 V.
+/// let check = ConsistencyCheck::new(&solver, &SVector::repeat(1e-3), 1e-4)?
+///     .with_range(SVector::repeat(-5.0), SVector::repeat(5.0));
+///
+/// let sound = matrix * Vector6::repeat(0.1);
+/// for (reads, expected) in [
+///     (0.0, Fault::Dead),
+///     (5.0, Fault::Saturated),
+///     (0.3, Fault::Deviating),
+///     (f64::NAN, Fault::NotFinite),
+/// ] {
+///     let mut signals = sound;
+///     signals[3] = reads;
+///     let verdict = check.verdict(&solver, &signals);
+///     assert!(matches!(verdict, Verdict::Faulty { gauge: 3, fault, .. } if fault == expected));
+/// }
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Fault {
@@ -83,6 +136,20 @@ pub enum Fault {
 }
 
 /// Why there is no threshold.
+///
+/// ```
+/// use fingertip_wrench::{BadCheck, ConsistencyCheck, LeastSquares, SensorMatrix};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let sensor = SensorMatrix::new(Matrix6::identity(), Vector6::repeat(1.0))?;
+/// let solver = LeastSquares::new(&sensor)?;
+/// let mut noise = Vector6::repeat(1e-3_f64);
+/// noise[5] = 0.0;
+/// let refused = ConsistencyCheck::new(&solver, &noise, 1e-4).unwrap_err();
+/// assert_eq!(refused, BadCheck::BadNoise { gauge: 5 });
+/// assert_eq!(refused.to_string(), "the noise of gauge 5 is not a positive finite standard deviation");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadCheck {
@@ -204,6 +271,30 @@ impl<T: Real, const N: usize> ConsistencyCheck<T, N> {
 /// With weight `w`, noise that is independent from sample to sample is averaged down by
 /// `√(w/(2−w))`; the memory is about `1/w` samples. (Noise at mains frequency is not independent:
 /// choose a memory of many periods.)
+///
+/// ```
+/// use fingertip_wrench::{DriftMonitor, LeastSquares, SensorMatrix, Verdict};
+/// use nalgebra::{SMatrix, SVector, Vector6};
+///
+/// // A gauge for each load, and two more that see all of them in different proportions.
+/// let matrix = SMatrix::<f64, 8, 6>::from_fn(|gauge, axis| match gauge {
+///     6 => 1.0,
+///     7 => 1.0 + axis as f64,
+///     _ => if gauge == axis { 1.0 } else { 0.0 },
+/// });
+/// let solver = LeastSquares::new(&SensorMatrix::new(matrix, Vector6::repeat(1.0))?)?;
+/// let mut monitor = DriftMonitor::new(&solver, &SVector::repeat(1e-3), 0.05, 1e-4)?;
+///
+/// let mut signals = matrix * Vector6::repeat(0.1);
+/// assert_eq!(monitor.update(&solver, &signals), None); // too early to say
+/// let mut verdict = None;
+/// for _ in 0..2000 {
+///     signals[3] += 1e-5; // 10 µV with each reading
+///     verdict = monitor.update(&solver, &signals);
+/// }
+/// assert!(matches!(verdict, Some(Verdict::Faulty { gauge: 3, .. })));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriftMonitor<T: Real, const N: usize> {
     check: ConsistencyCheck<T, N>,

@@ -11,6 +11,20 @@ use thiserror::Error;
 use crate::{Real, SensorMatrix, SensorMatrixError};
 
 /// Where one gauge is glued.
+///
+/// ```
+/// use fingertip_wrench::gauge_layout::{Gauge, GaugeLayout, ThinWalledBeam};
+///
+/// let beam = ThinWalledBeam { radius: 5e-3, thickness: 2e-4, youngs_modulus: 70e9, poisson_ratio: 0.33 };
+/// // One along the beam, one across it.
+/// let along = Gauge { z: 0.0, theta: 0.0, q: 0.0 };
+/// let across = Gauge { q: core::f64::consts::FRAC_PI_2, ..along };
+/// let strain = GaugeLayout::new(&beam, [along, across])?.strain_matrix();
+/// // What stretches the beam makes it thinner, by Poisson's ratio.
+/// assert!(strain[(0, 0)] > 0.0);
+/// assert!((strain[(1, 0)] / strain[(0, 0)] + 0.33).abs() < 1e-12);
+/// # Ok::<(), fingertip_wrench::gauge_layout::LayoutError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gauge<T> {
@@ -23,6 +37,18 @@ pub struct Gauge<T> {
 }
 
 /// A tube and its material.
+///
+/// ```
+/// use core::f64::consts::PI;
+/// use fingertip_wrench::gauge_layout::ThinWalledBeam;
+///
+/// // A tube of aluminium, 10 mm across, with a wall of 0.2 mm.
+/// let beam = ThinWalledBeam { radius: 5e-3, thickness: 2e-4, youngs_modulus: 70e9, poisson_ratio: 0.33 };
+/// // A newton along it is carried by 2πRs = 6.28 mm² of metal, and stretches that by 2.27 µm/m.
+/// let by_hand = 1.0 / (70e9 * 2.0 * PI * 5e-3 * 2e-4);
+/// assert!((beam.section_constants()?.axial / by_hand - 1.0).abs() < 1e-12);
+/// # Ok::<(), fingertip_wrench::gauge_layout::LayoutError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ThinWalledBeam<T> {
@@ -37,6 +63,18 @@ pub struct ThinWalledBeam<T> {
 }
 
 /// The four section constants of equation (17): strain per unit load, before the angles.
+///
+/// ```
+/// use fingertip_wrench::gauge_layout::ThinWalledBeam;
+///
+/// let beam = ThinWalledBeam { radius: 5e-3, thickness: 2e-4, youngs_modulus: 70e9, poisson_ratio: 0.25 };
+/// let section = beam.section_constants()?;
+/// // A newton at a lever of a radius strains the wall by bending twice as much as by pulling, by torsion
+/// // 1 + μ times.
+/// assert!((section.bending * 5e-3 / section.axial - 2.0_f64).abs() < 1e-12);
+/// assert!((section.torsion * 5e-3 / section.axial - 1.25_f64).abs() < 1e-12);
+/// # Ok::<(), fingertip_wrench::gauge_layout::LayoutError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SectionConstants<T> {
@@ -51,6 +89,15 @@ pub struct SectionConstants<T> {
 }
 
 /// What is wrong with a beam.
+///
+/// ```
+/// use fingertip_wrench::gauge_layout::{GaugeLayout, LayoutError, ThinWalledBeam};
+///
+/// let beam = ThinWalledBeam { radius: 5e-3, thickness: 0.0, youngs_modulus: 70e9, poisson_ratio: 0.33 };
+/// let refused = GaugeLayout::new(&beam, GaugeLayout::three_rosettes(0.3)).unwrap_err();
+/// assert_eq!(refused, LayoutError::BadBeam { quantity: "wall thickness" });
+/// assert_eq!(refused.to_string(), "the beam's wall thickness is out of range");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum LayoutError {
@@ -117,6 +164,21 @@ impl<T: Real> ThinWalledBeam<T> {
 }
 
 /// `N` gauges on a beam.
+///
+/// ```
+/// use fingertip_wrench::Conditioning;
+/// use fingertip_wrench::gauge_layout::{GaugeLayout, ThinWalledBeam, isotropic_angle};
+/// use nalgebra::Vector6;
+///
+/// let beam = ThinWalledBeam { radius: 5e-3, thickness: 2e-4, youngs_modulus: 70e9, poisson_ratio: 0.33 };
+/// let layout = GaugeLayout::new(&beam, GaugeLayout::three_rosettes(isotropic_angle(0.33)))?;
+/// // 10 kV per unit of strain; torques are rated at the forces times the radius.
+/// let sensor = layout.sensor_matrix(1e4, Vector6::new(10.0, 10.0, 10.0, 0.05, 0.05, 0.05))?;
+/// // No gauges on a tube do better than √2.
+/// let condition_number = Conditioning::of(&sensor).condition_number();
+/// assert!((condition_number - 2.0_f64.sqrt()).abs() < 1e-12);
+/// # Ok::<(), fingertip_wrench::gauge_layout::LayoutError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

@@ -14,6 +14,18 @@ use crate::{Real, Wrench};
 /// sensor, `N > 6` an *extended* one.
 ///
 /// The wrench is the load on the fingertip about the origin of the sensor frame.
+///
+/// ```
+/// use fingertip_wrench::{SensorMatrix, Wrench};
+/// use nalgebra::{Matrix6, Vector3, Vector6};
+///
+/// // Each gauge gives 2 V at the nominal load of its axis: 10 N or 0.1 N·m.
+/// let nominal = Vector6::new(10.0, 10.0, 10.0, 0.1, 0.1, 0.1);
+/// let sensor = SensorMatrix::new(Matrix6::from_diagonal_element(2.0), nominal)?;
+/// let load = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -5.0), Vector3::new(0.1, 0.0, 0.0));
+/// assert_eq!(sensor.signals(&load), Vector6::new(0.0, 0.0, -1.0, 2.0, 0.0, 0.0));
+/// # Ok::<(), fingertip_wrench::SensorMatrixError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorMatrix<T: Real, const N: usize> {
     normalised: SMatrix<T, N, 6>,
@@ -21,6 +33,17 @@ pub struct SensorMatrix<T: Real, const N: usize> {
 }
 
 /// Why a matrix cannot be that of a sensor. Rows and columns count from 0.
+///
+/// ```
+/// use fingertip_wrench::{SensorMatrix, SensorMatrixError};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let mut matrix = Matrix6::<f64>::identity();
+/// matrix[(3, 3)] = 0.0; // the wire of gauge 3 came off
+/// let refused = SensorMatrix::new(matrix, Vector6::repeat(1.0)).unwrap_err();
+/// assert_eq!(refused, SensorMatrixError::DeadGauge { gauge: 3 });
+/// assert_eq!(refused.to_string(), "gauge 3 answers to no load: its row is zero");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SensorMatrixError {

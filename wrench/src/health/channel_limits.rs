@@ -6,6 +6,21 @@ use crate::Real;
 use crate::stored;
 
 /// What is wrong with a channel.
+///
+/// ```
+/// use fingertip_wrench::{ChannelFault, ChannelLimits, ChannelMonitor};
+///
+/// let mut monitor = ChannelMonitor::new(ChannelLimits::new(0.0, 1023.0)?);
+/// assert_eq!(monitor.update(1023.0, true), Some(ChannelFault::SaturatedHigh));
+/// // A wire breaks after a thousand counts that had noise.
+/// let mut last = None;
+/// for i in 0..2000_i32 {
+///     let noise = f64::from(i.wrapping_mul(7919) % 11) - 5.0;
+///     last = monitor.update(if i < 1000 { 500.0 + noise } else { 500.0 }, true);
+/// }
+/// assert_eq!(last, Some(ChannelFault::Stuck));
+/// # Ok::<(), fingertip_wrench::BadLimits>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ChannelFault {
@@ -25,6 +40,16 @@ pub enum ChannelFault {
 }
 
 /// The linear range of a channel, in the unit of its raw readings.
+///
+/// ```
+/// use fingertip_wrench::{ChannelFault, ChannelLimits};
+///
+/// // An amplifier between rails of ±10 V is linear up to half a volt from them.
+/// let limits = ChannelLimits::new(-9.5, 9.5)?;
+/// assert_eq!(limits.fault(3.0), None);
+/// assert_eq!(limits.fault(9.7), Some(ChannelFault::SaturatedHigh));
+/// # Ok::<(), fingertip_wrench::BadLimits>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChannelLimits<T: Real> {
     least: T,
@@ -32,6 +57,13 @@ pub struct ChannelLimits<T: Real> {
 }
 
 /// Limits that cannot be used.
+///
+/// ```
+/// use fingertip_wrench::ChannelLimits;
+///
+/// let refused = ChannelLimits::new(9.5, -9.5).unwrap_err();
+/// assert_eq!(refused.to_string(), "the lower limit of a channel is not below its upper limit");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadLimits {

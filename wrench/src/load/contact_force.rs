@@ -7,6 +7,17 @@ use crate::{Real, TangentialForce};
 /// The force of one contact, split at its tangent plane: the bridge from contact to friction.
 ///
 /// It has no point and no surface, so that friction models can be used without them.
+///
+/// ```
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// // An object presses with 2 N on a surface whose normal is z, and drags with 0.3 N along x.
+/// let force = ContactForce::split(&Vector3::new(0.3, 0.0, -2.0), &Vector3::z(), 0.0);
+/// assert_eq!(force.normal, 2.0);
+/// assert_eq!(force.tangential.vector(), Vector3::new(0.3, 0.0, 0.0));
+/// assert_eq!(force.friction_ratio(), Some(0.15));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

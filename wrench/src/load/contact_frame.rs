@@ -7,6 +7,21 @@ use crate::{ContactForce, Frame, Real, Wrench, tangents};
 
 /// A point of a surface with its outward unit normal and two tangents: right-handed,
 /// `tangent₁ × tangent₂ = normal`.
+///
+/// ```
+/// use fingertip_wrench::{ContactFrame, Wrench};
+/// use nalgebra::Vector3;
+///
+/// // The top of a sphere of 13 mm, and a force that acts there.
+/// let top = ContactFrame::new(Vector3::new(0.0, 0.0, 0.013), Vector3::z())?;
+/// let wrench: Wrench<f64> = Wrench::from_force_at(&top.point(), Vector3::new(0.3, 0.0, -2.0));
+/// let load = top.decompose(&wrench);
+/// assert_eq!(load.force.normal, 2.0);
+/// assert_eq!(load.force.tangential_magnitude(), 0.3);
+/// let again: Wrench<f64> = top.compose(&load);
+/// assert!((again - wrench).components().amax() < 1e-15);
+/// # Ok::<(), fingertip_wrench::BadNormal>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactFrame<T: Real> {
     point: Vector3<T>,
@@ -15,6 +30,21 @@ pub struct ContactFrame<T: Real> {
 }
 
 /// A wrench taken apart at a contact.
+///
+/// ```
+/// use fingertip_wrench::{ContactFrame, Wrench};
+/// use nalgebra::Vector3;
+///
+/// // A flat tip is pressed off its centre and turned about its normal.
+/// let centre = ContactFrame::new(Vector3::zeros(), Vector3::z())?;
+/// let (force, torque) = (Vector3::new(0.0, 0.0, -2.0), Vector3::new(0.02, 0.0, 0.001));
+/// let wrench: Wrench<f64> = Wrench::on_fingertip(force, torque);
+/// let load = centre.decompose(&wrench);
+/// assert_eq!(load.force.spin, 0.001);
+/// // A point contact carries no such torque: it must be 0.02/2 m away.
+/// assert_eq!(load.rolling, Vector3::new(0.02, 0.0, 0.0));
+/// # Ok::<(), fingertip_wrench::BadNormal>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -31,6 +61,14 @@ pub struct ContactLoad<T: Real> {
 }
 
 /// A normal without direction.
+///
+/// ```
+/// use fingertip_wrench::ContactFrame;
+/// use nalgebra::Vector3;
+///
+/// let refused = ContactFrame::new(Vector3::z(), Vector3::<f64>::zeros()).unwrap_err();
+/// assert_eq!(refused.to_string(), "the point or normal of the contact is zero or not finite");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the point or normal of the contact is zero or not finite")]
 pub struct BadNormal;

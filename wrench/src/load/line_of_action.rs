@@ -7,6 +7,14 @@ use crate::scalar::largest::largest;
 use crate::{Frame, Real, Wrench};
 
 /// An oriented straight line: points `point + along · direction`.
+///
+/// ```
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// let line = Line { point: Vector3::new(0.01, 0.0, 0.0), direction: Vector3::z() };
+/// assert_eq!(line.at(-0.02), Vector3::new(0.01, 0.0, -0.02));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -35,6 +43,21 @@ impl<T: Real> Line<T> {
 /// With force `f` and torque `m` about the origin (`docs/theory/wrench.md#line-of-action`; Salisbury 1984,
 /// equation (1) of Bicchi & Dario 1987):
 /// foot point `f × m / |f|²`, direction `f/|f|`, pitch `f·m / |f|²`.
+///
+/// ```
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 2 N down at x = 10 mm, and a couple of 4 N·mm about the same direction.
+/// let force = Vector3::new(0.0, 0.0, -2.0);
+/// let couple = Vector3::new(0.0, 0.0, -0.004);
+/// let pressed: Wrench<f64> = Wrench::from_force_at(&Vector3::new(0.01, 0.0, 0.03), force);
+/// let axis = (pressed + Wrench::on_fingertip(Vector3::zeros(), couple)).line_of_action()?;
+/// assert!((axis.line.point - Vector3::new(0.01, 0.0, 0.0)).amax() < 1e-15);
+/// assert_eq!(axis.line.direction, -Vector3::z());
+/// assert!((axis.pitch - 0.002).abs() < 1e-15); // 4 N·mm over 2 N
+/// # Ok::<(), fingertip_wrench::NoLineOfAction>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -52,6 +75,15 @@ pub struct LineOfAction<T: Real> {
 }
 
 /// Why a wrench has no line of action.
+///
+/// ```
+/// use fingertip_wrench::{NoLineOfAction, Wrench};
+/// use nalgebra::Vector3;
+///
+/// let couple: Wrench<f64> = Wrench::on_fingertip(Vector3::zeros(), Vector3::new(0.0, 0.0, 0.01));
+/// assert_eq!(couple.line_of_action(), Err(NoLineOfAction::NoForce));
+/// assert_eq!(NoLineOfAction::NoForce.to_string(), "the force is zero");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoLineOfAction {

@@ -11,6 +11,16 @@ use crate::scalar::largest::largest;
 ///
 /// Friction models and slip detectors all ask for the magnitude, and the way to a contact may know it
 /// sooner and better than the vector does.
+///
+/// ```
+/// use fingertip_wrench::TangentialForce;
+/// use nalgebra::Vector3;
+///
+/// let force = TangentialForce::new(Vector3::new(0.3, 0.4, 0.0));
+/// assert_eq!(force.magnitude(), 0.5);
+/// assert_eq!(force.scaled(-2.0).vector(), Vector3::new(-0.6, -0.8, 0.0));
+/// assert_eq!(force.scaled(-2.0).magnitude(), 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

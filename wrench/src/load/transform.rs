@@ -38,6 +38,17 @@ pub struct RigidTransform<T: Real, To: Frame = Sensor, From: Frame = Sensor> {
 }
 
 /// Why a matrix and a vector are not a rigid motion.
+///
+/// ```
+/// use fingertip_wrench::{RigidTransform, TransformError};
+/// use nalgebra::{Matrix3, Vector3};
+///
+/// // A left-handed frame.
+/// let mirror = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, -1.0));
+/// let refused = RigidTransform::<f64>::from_matrix(mirror, Vector3::zeros()).unwrap_err();
+/// assert_eq!(refused, TransformError::Reflection);
+/// assert_eq!(refused.to_string(), "the rotation matrix is a reflection: its determinant is −1");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TransformError {

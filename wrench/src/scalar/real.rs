@@ -11,6 +11,21 @@ use nalgebra::RealField;
 /// `f32` and `f64` are its full citizens. It is not sealed: dual numbers (to check Jacobians) or
 /// double-double numbers (to make references) may implement it. Only the three constants and
 /// [`literal`](Real::literal) and [`to_f64`](Real::to_f64) are required.
+///
+/// ```
+/// use fingertip_wrench::Real;
+///
+/// /// The strain of a gauge at 45° in a state of pure shear.
+/// fn diagonal<T: Real>(shear: T) -> T {
+///     shear * T::literal(0.5)
+/// }
+///
+/// assert_eq!(diagonal(3e-6_f64), 1.5e-6);
+/// assert_eq!(diagonal(3e-6_f32), 1.5e-6);
+/// // A product and what its rounding lost: (1 + ε)² = 1 + 2ε + ε².
+/// let near = 1.0 + f64::EPSILON;
+/// assert_eq!(near.two_product(near), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
+/// ```
 pub trait Real: RealField + Copy {
     /// Distance from 1 to the next larger number (`2^-52` for `f64`, `2^-23` for `f32`).
     const EPSILON: Self;

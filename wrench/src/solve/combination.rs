@@ -35,6 +35,12 @@ use crate::Real;
 ///         kept
 ///     };
 /// }
+/// // A force along x bends gauges 0 and 2 the opposite ways, a torque about y the same way.
+/// use nalgebra::Vector6;
+/// let force = Vector6::new(0.5, 0.0, -0.5, 0.0, 0.0, 0.0);
+/// let torque = Vector6::new(0.5, 0.0, 0.5, 0.0, 0.0, 0.0);
+/// assert_eq!(Cross::combine(&force), Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0));
+/// assert_eq!(Cross::combine(&torque), Vector6::new(0.0, 0.0, 0.0, 0.0, 1.0, 0.0));
 /// ```
 pub trait Combination<const N: usize> {
     /// Row `i` says how the signals are combined to see load `i` of Fx, Fy, Fz, Tx, Ty, Tz.
@@ -88,6 +94,20 @@ pub const fn diagonal_pattern() -> [[bool; 6]; 6] {
 /// ([`bicchi_dario_gauges`](crate::gauges::gauge_layout::GaugeLayout::bicchi_dario_gauges)): its equation
 /// (19) with the misprinted last rows mended, V₂ − V₄ and V₁ − V₃, which feel a shear force as well
 /// as their bending moment.
+///
+/// ```
+/// use fingertip_wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
+/// use fingertip_wrench::{BicchiDario, Combination};
+///
+/// let beam = ThinWalledBeam { radius: 5e-3, thickness: 2e-4, youngs_modulus: 70e9, poisson_ratio: 0.33 };
+/// let gauges = GaugeLayout::<f64, 6>::bicchi_dario_gauges(14.0_f64.to_radians(), 0.01);
+/// let strain = GaugeLayout::new(&beam, gauges)?.strain_matrix();
+/// // An axial force strains all four gauges of the ring alike: only the first combination sees it.
+/// let seen = BicchiDario::combine(&strain.column(0).into_owned());
+/// assert!((seen[0] / strain[(0, 0)] - 4.0).abs() < 1e-12);
+/// assert!(seen.rows(1, 5).amax() < 1e-12 * seen[0]);
+/// # Ok::<(), fingertip_wrench::gauge_layout::LayoutError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BicchiDario;
 
@@ -119,6 +139,20 @@ impl Combination<6> for BicchiDario {
 /// ([`three_rosettes`](crate::gauges::gauge_layout::GaugeLayout::three_rosettes)), signals in the order
 /// +, −, +, −, +, −. The sums of the pairs see axial force and bending, their differences torsion
 /// and shear; no coupling is left.
+///
+/// ```
+/// use fingertip_wrench::gauge_layout::{GaugeLayout, ThinWalledBeam, isotropic_angle};
+/// use fingertip_wrench::{Decoupled, ThreeRosettes};
+/// use nalgebra::Vector6;
+///
+/// let beam = ThinWalledBeam { radius: 5e-3, thickness: 2e-4, youngs_modulus: 70e9, poisson_ratio: 0.33 };
+/// let layout = GaugeLayout::new(&beam, GaugeLayout::three_rosettes(isotropic_angle(0.33)))?;
+/// let sensor = layout.sensor_matrix(1e4, Vector6::new(30.0, 30.0, 30.0, 0.15, 0.15, 0.15))?;
+/// let solver = Decoupled::<f64, ThreeRosettes, 6>::new(&sensor)?;
+/// // On the sensor of the drawing no load feigns another.
+/// assert!(solver.neglected().amax() < 1e-14);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ThreeRosettes;
 
@@ -153,6 +187,17 @@ impl Combination<6> for ThreeRosettes {
 /// For four crossed pairs ±Q at 0°, 90°, 180° and 270° in one ring
 /// ([`four_rosettes`](crate::gauges::gauge_layout::GaugeLayout::four_rosettes)), signals in the order
 /// +, −, +, −, …
+///
+/// ```
+/// use fingertip_wrench::{Combination, FourRosettes};
+/// use nalgebra::{SVector, Vector6};
+///
+/// // An axial force strains all gauges alike; a torque about the axis strains those of a pair oppositely.
+/// let axial = SVector::<f64, 8>::repeat(1.0);
+/// let torsion = SVector::from_fn(|i, _| if i % 2 == 0 { 1.0 } else { -1.0 });
+/// assert_eq!(FourRosettes::combine(&axial), Vector6::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0));
+/// assert_eq!(FourRosettes::combine(&torsion), Vector6::new(0.0, 0.0, 0.0, 8.0, 0.0, 0.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FourRosettes;
 

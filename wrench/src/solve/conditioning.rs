@@ -49,6 +49,21 @@ pub struct Conditioning<T: Real> {
 }
 
 /// Equation (14) says nothing about errors this large.
+///
+/// ```
+/// use fingertip_wrench::{BeyondBound, Conditioning, SensorMatrix};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let matrix = Matrix6::from_diagonal(&Vector6::new(4.0, 1.0, 1.0, 1.0, 1.0, 1.0));
+/// let conditioning = Conditioning::of(&SensorMatrix::new(matrix, Vector6::repeat(1.0_f64))?);
+/// // A matrix known to 1 % of its norm: (0.1 % + 1 %)·4/(1 − 0.04).
+/// let bound = conditioning.relative_error_bound(0.001, 0.01)?;
+/// assert!((bound - 0.044 / 0.96).abs() < 1e-12);
+/// // One known to half of it may be singular.
+/// let refused = conditioning.relative_error_bound(0.001, 0.5).unwrap_err();
+/// assert!(matches!(refused, BeyondBound::MatrixMayBeSingular { product } if (product - 2.0).abs() < 1e-12));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BeyondBound {

@@ -12,6 +12,19 @@ use crate::{Real, SensorMatrix, Wrench, WrenchSolver};
 /// by `Σⱼ var(Cᵢⱼ) Pⱼ²`. Independent errors of the entries are assumed. Bias (neglected couplings
 /// of a [`Decoupled`](crate::Decoupled) solver) has no covariance: see
 /// [`ErrorBound`](crate::ErrorBound).
+///
+/// ```
+/// use fingertip_wrench::{Inverse, SensorMatrix, WrenchCovariance};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // 2 V at 10 N, with 2 mV of noise: 10 mN.
+/// let sensor = SensorMatrix::new(Matrix6::from_diagonal_element(2.0), Vector6::repeat(10.0))?;
+/// let solver = Inverse::new(&sensor)?;
+/// let covariance = WrenchCovariance::from_noise(&sensor, &solver, &Vector6::repeat(2e-3))?;
+/// let variance: f64 = covariance.floor()[(0, 0)];
+/// assert!((variance.sqrt() - 0.01).abs() < 1e-15);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrenchCovariance<T: Real, const N: usize> {
     constant: Matrix6<T>,
@@ -22,6 +35,18 @@ pub struct WrenchCovariance<T: Real, const N: usize> {
 }
 
 /// Why there is no covariance.
+///
+/// ```
+/// use fingertip_wrench::{BadCovariance, Inverse, SensorMatrix, WrenchCovariance};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let sensor = SensorMatrix::new(Matrix6::identity(), Vector6::repeat(1.0_f64))?;
+/// let noise = Vector6::new(1e-3, 1e-3, -1e-3, 1e-3, 1e-3, 1e-3);
+/// let refused = WrenchCovariance::from_noise(&sensor, &Inverse::new(&sensor)?, &noise).unwrap_err();
+/// assert_eq!(refused, BadCovariance::BadNoise { gauge: 2 });
+/// assert_eq!(refused.to_string(), "the noise of gauge 2 is not a standard deviation or variance");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadCovariance {

@@ -11,6 +11,18 @@ const NONE: u8 = u8::MAX;
 /// A product of two or three signals, and the load of one unit of it.
 ///
 /// See [`CurvedInverse`] for an example.
+///
+/// ```
+/// use fingertip_wrench::{CurvedInverse, ProductTerm, WrenchSolver};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // 1 N per volt of the first gauge, and −0.2 N per volt of the first times volt of the third.
+/// let coupling = ProductTerm::of_two(0, 2, Vector6::x() * -0.2);
+/// let sensor = CurvedInverse::new(Matrix6::<f64>::identity(), [coupling])?;
+/// let signals = Vector6::new(2.0, 0.0, 3.0, 0.0, 0.0, 0.0);
+/// assert!((sensor.solve(&signals).force().x - 0.8).abs() < 1e-15); // 2 − 0.2·2·3
+/// # Ok::<(), fingertip_wrench::BadCurve>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProductTerm<T: Real> {
     signals: [u8; 3],
@@ -43,6 +55,20 @@ impl<T: Real> ProductTerm<T> {
 /// and its slope without load; and the load of one unit of it.
 ///
 /// See [`CurvedInverse::with_radial`] for an example.
+///
+/// ```
+/// use fingertip_wrench::{CurvedInverse, RadialTerm, WrenchSolver};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let bump = RadialTerm { centre: Vector6::x(), load: Vector6::x() };
+/// let linear = CurvedInverse::new(Matrix6::<f64>::identity(), [])?;
+/// let sensor = linear.with_radial(Vector6::repeat(1.0), [bump])?;
+/// assert_eq!(sensor.solve(&Vector6::zeros()).force().x, 0.0);
+/// // At its centre the bump is 1, less 1/√2, its value without load, and 1/(2√2), its slope there.
+/// let at_centre = sensor.solve(&Vector6::x()).force().x;
+/// assert!((at_centre - (2.0 - 1.5 / 2.0_f64.sqrt())).abs() < 1e-15);
+/// # Ok::<(), fingertip_wrench::BadCurve>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadialTerm<T: Real, const N: usize> {
     /// Signals at which the bump is highest.
@@ -96,6 +122,17 @@ pub struct CurvedInverse<T: Real, const N: usize, P = [ProductTerm<T>; 0], R = [
 }
 
 /// Why terms are no curved sensor.
+///
+/// ```
+/// use fingertip_wrench::{BadCurve, CurvedInverse, ProductTerm};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let beyond = ProductTerm::of_two(0, 6, Vector6::x());
+/// let refused = CurvedInverse::new(Matrix6::<f64>::identity(), [beyond]).unwrap_err();
+/// assert_eq!(refused, BadCurve::NoSuchSignal { signal: 6, gauges: 6 });
+/// let told = "a term of the curved sensor model is a product of gauge 7, but there are 6 gauges";
+/// assert_eq!(refused.to_string(), told);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadCurve {

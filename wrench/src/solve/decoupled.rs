@@ -45,6 +45,18 @@ pub struct Decoupled<T: Real, K: Combination<N>, const N: usize> {
 }
 
 /// Why a sensor cannot be solved by a combination of its signals.
+///
+/// ```
+/// use fingertip_wrench::{Decoupled, NotDecoupled, SensorMatrix, ThreeRosettes};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // A gauge for each load is not the sensor that sums and differences are for.
+/// let sensor = SensorMatrix::new(Matrix6::identity(), Vector6::repeat(1.0_f64))?;
+/// let refused = Decoupled::<_, ThreeRosettes, 6>::new(&sensor).unwrap_err();
+/// assert_eq!(refused, NotDecoupled::BlindCombination { combination: 1 });
+/// assert_eq!(refused.to_string(), "combination 1 does not tell its load from the others");
+/// # Ok::<(), fingertip_wrench::SensorMatrixError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotDecoupled {

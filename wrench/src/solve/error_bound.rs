@@ -8,6 +8,19 @@ use crate::{Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// What is not known of a sensor, as worst cases. Plain data; all zero means that only the solver's
 /// own error counts.
+///
+/// ```
+/// use fingertip_wrench::{SensorMatrix, Uncertainty};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // Signals within 2 mV; a calibration that is good to 1 % of the 2 V that a gauge gives at most.
+/// let sensor = SensorMatrix::new(Matrix6::from_diagonal_element(2.0), Vector6::repeat(10.0))?;
+/// let signals = Vector6::repeat(2e-3);
+/// let uncertainty = Uncertainty::of_signals(signals).with_relative_matrix_error(&sensor, 0.01);
+/// assert_eq!(uncertainty.signals[0], 2e-3);
+/// assert_eq!(uncertainty.matrix[(4, 0)], 0.02); // crosstalk that is not in the matrix may be there
+/// # Ok::<(), fingertip_wrench::SensorMatrixError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -77,6 +90,21 @@ pub struct ErrorBound<T: Real, const N: usize> {
 }
 
 /// Why a solver's error has no bound.
+///
+/// ```
+/// use fingertip_wrench::{ErrorBound, Inverse, NoErrorBound, SensorMatrix, Uncertainty};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let sensor = SensorMatrix::new(Matrix6::identity(), Vector6::repeat(1.0_f64))?;
+/// let solver = Inverse::new(&sensor)?;
+/// // Every entry may be off by half of the largest in its column: such a matrix may be singular.
+/// let uncertainty = Uncertainty::none().with_relative_matrix_error(&sensor, 0.5);
+/// let refused = ErrorBound::new(&sensor, &solver, &uncertainty).unwrap_err();
+/// assert_eq!(refused, NoErrorBound::Unbounded);
+/// let told = "no bound: within the uncertainty of its matrix the sensor may be singular";
+/// assert!(refused.to_string().starts_with(told));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoErrorBound {

@@ -18,6 +18,18 @@ use crate::{
 /// errors *whatever the matrix*, the product leaves up to
 /// [`residual_growth`](Self::residual_growth) times as much. [`ErrorBound`](crate::ErrorBound) says
 /// what that means for the wrench.
+///
+/// ```
+/// use fingertip_wrench::{Inverse, SensorMatrix, WrenchSolver};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let sensor = SensorMatrix::new(Matrix6::from_diagonal_element(2.0), Vector6::repeat(10.0))?;
+/// let solver = Inverse::new(&sensor)?;
+/// assert_eq!(solver.matrix()[(0, 0)], 5.0); // newtons per volt
+/// assert_eq!(solver.solve(&Vector6::new(0.0, 0.0, -1.0, 0.0, 0.0, 0.0)).force().z, -5.0);
+/// assert_eq!(solver.residual_growth(), 1.0); // a diagonal matrix loses nothing
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inverse<T: Real> {
     /// Newtons and newton metres per signal.
@@ -90,6 +102,17 @@ impl<T: Real> Inverse<T> {
 }
 
 /// A published matrix that is not the inverse of a sensor matrix.
+///
+/// ```
+/// use fingertip_wrench::{BadInverse, SensorMatrix};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // All loads from the sum of the signals: they cannot be told apart.
+/// let published = Matrix6::<f64>::repeat(1.0);
+/// let refused = SensorMatrix::from_inverse(&published, Vector6::repeat(1.0)).unwrap_err();
+/// assert!(matches!(refused, BadInverse::Singular(_)));
+/// assert!(refused.to_string().starts_with("the matrix from signals to wrench is singular: "));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BadInverse {

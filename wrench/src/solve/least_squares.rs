@@ -16,6 +16,24 @@ use crate::{LinearMap, OwnError, Real, SensorMatrix, Wrench, WrenchSolver};
 /// [`predicted`](Self::predicted) what a gauge ought to read by the others,
 /// [`solve_without`](Self::solve_without) the wrench without it. The factors of all of these are
 /// prepared at construction; [`ConsistencyCheck`](crate::ConsistencyCheck) draws the conclusions.
+///
+/// ```
+/// use fingertip_wrench::{LeastSquares, SensorMatrix, WrenchSolver};
+/// use nalgebra::{SMatrix, SVector, Vector6};
+///
+/// // A gauge for each load, and a seventh that sees all of them.
+/// let sees = |gauge, axis| gauge == axis || gauge == 6;
+/// let matrix = SMatrix::<f64, 7, 6>::from_fn(|gauge, axis| if sees(gauge, axis) { 1.0 } else { 0.0 });
+/// let solver = LeastSquares::new(&SensorMatrix::new(matrix, Vector6::repeat(1.0))?)?;
+/// let load = Vector6::new(1.0, 2.0, -3.0, 0.1, 0.2, 0.3);
+/// let mut signals: SVector<f64, 7> = matrix * load;
+/// assert!((solver.solve(&signals).components() - load).amax() < 1e-14);
+/// // The wire of gauge 2 comes off: the others tell what it would have read.
+/// signals[2] = f64::NAN;
+/// assert!((solver.predicted(&signals, 2).unwrap() + 3.0).abs() < 1e-14);
+/// assert!((solver.solve_without(&signals, 2).unwrap().components() - load).amax() < 1e-14);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeastSquares<T: Real, const N: usize> {
     /// Newtons and newton metres per signal.
@@ -29,6 +47,19 @@ pub struct LeastSquares<T: Real, const N: usize> {
 }
 
 /// Why least squares has no unique answer.
+///
+/// ```
+/// use fingertip_wrench::{LeastSquares, LeastSquaresError, SensorMatrix};
+/// use nalgebra::{SMatrix, Vector6};
+///
+/// // Eight gauges, to which a torque about z is what a force along z is.
+/// let sees = |gauge, axis| gauge % 5 == if axis == 5 { 2 } else { axis };
+/// let matrix = SMatrix::<f64, 8, 6>::from_fn(|gauge, axis| if sees(gauge, axis) { 1.0 } else { 0.0 });
+/// let refused = LeastSquares::new(&SensorMatrix::new(matrix, Vector6::repeat(1.0))?).unwrap_err();
+/// assert_eq!(refused, LeastSquaresError::DependentAxis { axis: 5 });
+/// assert_eq!(refused.to_string(), "no combination of gauges tells axis 5 from the other axes");
+/// # Ok::<(), fingertip_wrench::SensorMatrixError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum LeastSquaresError {

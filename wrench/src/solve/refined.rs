@@ -21,6 +21,23 @@ use crate::{
 /// The refined answer is exact *for the matrix given*. A calibration is seldom known to better
 /// than 10⁻⁴, against which plain elimination loses nothing unless the condition number is above
 /// 10⁸ in `f64`; in `f32` refinement is worth its price from about 10² on.
+///
+/// ```
+/// use fingertip_wrench::{GaussianElimination, Refined, SensorMatrix, WrenchSolver};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // Hilbert's matrix, condition number 10⁷, times 27720, which makes its entries whole.
+/// let matrix = Matrix6::from_fn(|i, j| 27_720.0 / (i + j + 1) as f64);
+/// let sensor = SensorMatrix::new(matrix, Vector6::repeat(1.0))?;
+/// let signals = matrix * Vector6::repeat(1.0); // exactly
+/// let error = |solver: &dyn Fn(&Vector6<f64>) -> fingertip_wrench::Wrench<f64>| {
+///     (solver(&signals).components() - Vector6::repeat(1.0)).amax()
+/// };
+/// let (plain, refined) = (GaussianElimination::new(&sensor)?, Refined::new(&sensor)?);
+/// assert!(error(&|signals| refined.solve(signals)) <= f64::EPSILON);
+/// assert!(error(&|signals| plain.solve(signals)) > 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refined<T: Real> {
     /// The equilibrated matrix: column scales moved into the nominal loads.

@@ -6,6 +6,21 @@ use thiserror::Error;
 use crate::Real;
 
 /// The sensor matrix cannot be inverted.
+///
+/// ```
+/// use fingertip_wrench::{GaussianElimination, SensorMatrix, SingularMatrix};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let mut matrix = Matrix6::<f64>::identity();
+/// matrix[(5, 4)] = 1.0;
+/// matrix[(5, 5)] = 0.0; // gauge 5 sees what gauge 4 sees
+/// matrix[(0, 5)] = 1.0;
+/// let sensor = SensorMatrix::new(matrix, Vector6::repeat(1.0))?;
+/// let refused = GaussianElimination::new(&sensor).unwrap_err();
+/// assert!(matches!(refused, SingularMatrix::DependentGauge { gauge: 4 | 5, .. }));
+/// assert!(refused.to_string().starts_with("the sensor matrix is singular to working precision: "));
+/// # Ok::<(), fingertip_wrench::SensorMatrixError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SingularMatrix {

@@ -14,6 +14,22 @@ use crate::{Real, SensorMatrix, Wrench};
 /// # For implementers
 /// `solve` shall be free of allocation, of loops that depend on the data and of branches that
 /// depend on the data beyond the pivot order chosen at construction.
+///
+/// ```
+/// use fingertip_wrench::{Wrench, WrenchSolver};
+/// use nalgebra::{Vector3, Vector6};
+///
+/// /// A sensor that has solved already, and gives newtons and newton millimetres.
+/// struct Solved;
+/// impl WrenchSolver<f64, 6> for Solved {
+///     fn solve(&self, signals: &Vector6<f64>) -> Wrench<f64> {
+///         let [fx, fy, fz, tx, ty, tz] = signals.data.0[0];
+///         Wrench::on_fingertip(Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz) / 1000.0)
+///     }
+/// }
+/// let wrench = Solved.solve(&Vector6::new(0.0, 0.0, -2.0, 5.0, 0.0, 0.0));
+/// assert_eq!(wrench.torque(), Vector3::new(0.005, 0.0, 0.0));
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not turn {N} signals of `{T}` into a wrench",
     note = "give a solver for as many signals to `.solver(…)`, or take wrenches by `sense_wrench`"
@@ -45,6 +61,17 @@ impl<T: Real, const N: usize, S: WrenchSolver<T, N> + ?Sized> WrenchSolver<T, N>
 
 /// What linear map a solver is, and how far it is from the truth: all that [`ErrorBound`](crate::ErrorBound) and
 /// [`WrenchCovariance`](crate::WrenchCovariance) need.
+///
+/// ```
+/// use fingertip_wrench::{Inverse, SensorMatrix, WrenchSolver};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // 2 V at nominal load: half a nominal load per volt.
+/// let sensor = SensorMatrix::new(Matrix6::from_diagonal_element(2.0), Vector6::repeat(10.0_f64))?;
+/// let map = Inverse::new(&sensor)?.linear_map(&sensor).unwrap();
+/// assert_eq!(map.gain, Matrix6::from_diagonal_element(0.5));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearMap<T: Real, const N: usize> {
     /// The matrix `S` of the map `wrench / nominal loads = S · signals`, but for rounding.
@@ -59,6 +86,18 @@ pub struct LinearMap<T: Real, const N: usize> {
 ///
 /// For signals `V = C·P + d`, with `P` the load, the computed `P̂` obeys
 /// `|P̂ − P| ≤ per_load·max(|P|, |P̂|) + per_signal·|V| + magnitude·|d|`.
+///
+/// ```
+/// use fingertip_wrench::{Inverse, SensorMatrix, WrenchSolver};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// let sensor = SensorMatrix::new(Matrix6::from_diagonal_element(2.0), Vector6::repeat(10.0_f64))?;
+/// let own_error = Inverse::new(&sensor)?.linear_map(&sensor).unwrap().own_error;
+/// // It neglects nothing and rounds a few times; an error of a signal becomes half as many nominal loads.
+/// assert!(own_error.per_load.amax() < 1e-14 && own_error.per_signal.amax() < 1e-14);
+/// assert!((own_error.magnitude[(0, 0)] - 0.5).abs() < 1e-14);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnError<T: Real, const N: usize> {
     /// The part that grows with the load.

@@ -9,6 +9,25 @@ use nalgebra::SVector;
 ///
 /// The raw reading is a type of its own, since some compensations take more than what they correct: a
 /// dummy gauge, a temperature, the motion of the sensor.
+///
+/// ```
+/// use fingertip_wrench::Compensation;
+/// use nalgebra::Vector6;
+///
+/// /// Readings that grow with the supply of the bridges, which is read beside them.
+/// struct Ratiometric {
+///     nominal: f64,
+/// }
+/// impl Compensation<Vector6<f64>> for Ratiometric {
+///     type Raw = (Vector6<f64>, f64);
+///
+///     fn compensate(&self, (readings, supply): &Self::Raw) -> Vector6<f64> {
+///         readings * (self.nominal / supply)
+///     }
+/// }
+/// let signals = Ratiometric { nominal: 5.0 }.compensate(&(Vector6::repeat(0.4), 4.0));
+/// assert_eq!(signals, Vector6::repeat(0.5));
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` takes nothing off `{V}`",
     note = "a zero is for as many signals as the solver takes: give a `Tare` or a `DummyGauge` of them to `.zero(…)`"
@@ -22,6 +41,14 @@ pub trait Compensation<V> {
 }
 
 /// Readings that are signals already. Costs nothing.
+///
+/// ```
+/// use fingertip_wrench::{Compensation, Uncompensated};
+/// use nalgebra::Vector6;
+///
+/// let signals = Vector6::new(0.1, 0.2, 0.3, 0.4, 0.5, 0.6);
+/// assert_eq!(Uncompensated.compensate(&signals), signals);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Uncompensated;
 

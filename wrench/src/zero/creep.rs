@@ -50,6 +50,18 @@ pub struct CreepCompensation<T: Real, const N: usize, const K: usize> {
 }
 
 /// Why numbers are not those of a creep that can be taken off.
+///
+/// ```
+/// use fingertip_wrench::{BadCreep, CreepCompensation};
+/// use nalgebra::Vector2;
+///
+/// // Both averages together take all of the second gauge's signal.
+/// let shares = [Vector2::new(0.01, 0.5), Vector2::new(0.01, 0.5)];
+/// let refused = CreepCompensation::<f64, 2, 2>::new([1.0, 30.0], shares).unwrap_err();
+/// assert_eq!(refused, BadCreep::NothingLeft);
+/// let told = "the shares of creep of a gauge are 1 or more in all: nothing is left of a load that stays";
+/// assert_eq!(refused.to_string(), told);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadCreep {

@@ -5,6 +5,18 @@ use nalgebra::SVector;
 use crate::{Compensation, Real, Tare, TareAccumulator, TareError};
 
 /// One raw reading of `N` gauges and of the dummy gauge beside them.
+///
+/// ```
+/// use fingertip_wrench::{DummyGaugeAccumulator, GaugesAndDummy};
+/// use nalgebra::Vector6;
+///
+/// // Six gauges and the seventh, as they come from the converter.
+/// let [dummy, gauges @ ..] = [0.3, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1];
+/// let reading = GaugesAndDummy { gauges: Vector6::from(gauges), dummy };
+/// assert!(DummyGaugeAccumulator::default().add(&reading));
+/// // One that is not finite is left out.
+/// assert!(!DummyGaugeAccumulator::default().add(&GaugesAndDummy { dummy: f64::NAN, ..reading }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaugesAndDummy<T: Real, const N: usize> {
     /// The gauges that carry load.
@@ -18,6 +30,18 @@ pub struct GaugesAndDummy<T: Real, const N: usize> {
 /// The dummy gauge is glued to the same material where no load goes through it, so that what it
 /// reads since the tare is what the temperature did to all (the paper's seventh gauge). It adds its
 /// own noise to every gauge, in common.
+///
+/// ```
+/// use fingertip_wrench::{Compensation, DummyGauge, GaugesAndDummy, Tare};
+/// use nalgebra::Vector6;
+///
+/// // At rest the gauges read 0.1 V, the dummy 0.3 V.
+/// let zero = DummyGauge::new(Tare::new(Vector6::repeat(0.1)), 0.3);
+/// // It gets warm, which adds 0.05 V to all; 1 V is load.
+/// let raw = GaugesAndDummy { gauges: Vector6::repeat(1.15), dummy: 0.35 };
+/// assert!((zero.compensate(&raw) - Vector6::repeat(1.0_f64)).amax() < 1e-15);
+/// # Ok::<(), fingertip_wrench::TareError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -58,6 +82,19 @@ impl<T: Real, const N: usize> Compensation<SVector<T, N>> for DummyGauge<T, N> {
 }
 
 /// Collects readings at rest of the gauges and the dummy gauge.
+///
+/// ```
+/// use fingertip_wrench::{Compensation, DummyGaugeAccumulator, GaugesAndDummy};
+/// use nalgebra::Vector6;
+///
+/// let mut rest = DummyGaugeAccumulator::default();
+/// rest.add(&GaugesAndDummy { gauges: Vector6::repeat(0.09), dummy: 0.31 });
+/// rest.add(&GaugesAndDummy { gauges: Vector6::repeat(0.11), dummy: 0.29 });
+/// let zero = rest.finish()?; // 0.1 V, and 0.3 V of the dummy
+/// let warmer = GaugesAndDummy { gauges: Vector6::repeat(0.15), dummy: 0.35 };
+/// assert!(zero.compensate(&warmer).amax() < 1e-15_f64);
+/// # Ok::<(), fingertip_wrench::TareError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DummyGaugeAccumulator<T: Real, const N: usize> {
     gauges: TareAccumulator<T, N>,

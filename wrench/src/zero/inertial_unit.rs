@@ -7,6 +7,21 @@ use crate::stored;
 use crate::{Motion, Real};
 
 /// One reading of an inertial unit, along its own axes.
+///
+/// ```
+/// use fingertip_wrench::{InertialReading, InertialUnit};
+/// use nalgebra::{Matrix3, Vector3};
+///
+/// // A unit 5 cm along x, on a sensor that turns about z with 2 rad/s, far from any weight.
+/// let unit = InertialUnit::new(Matrix3::identity(), Vector3::new(0.05, 0.0, 0.0))?;
+/// let turning = Vector3::new(0.0, 0.0, 2.0);
+/// // It feels ω²r = 0.2 m/s² towards the axis, and the origin of the sensor nothing.
+/// let reading = InertialReading { acceleration: Vector3::new(-0.2, 0.0, 0.0), angular_velocity: turning };
+/// let motion = unit.motion(&reading, &Vector3::zeros());
+/// assert!(motion.gravity.amax() < 1e-15_f64);
+/// assert_eq!(motion.angular_velocity, turning);
+/// # Ok::<(), fingertip_wrench::BadInertialUnit>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InertialReading<T: Real> {
     /// What the accelerometer reads, acceleration less gravity \[m/s²\]: a unit at rest reads 9.8 upwards.
@@ -40,6 +55,16 @@ pub struct InertialUnit<T: Real> {
 }
 
 /// Why numbers cannot be those of an inertial unit.
+///
+/// ```
+/// use fingertip_wrench::{BadInertialUnit, InertialUnit};
+/// use nalgebra::{Matrix3, Vector3};
+///
+/// let refused = InertialUnit::new(Matrix3::identity() * 2.0, Vector3::<f64>::zeros()).unwrap_err();
+/// assert_eq!(refused, BadInertialUnit::Rotation);
+/// let told = "the axes of the inertial unit are no rotation: orthonormal, determinant 1";
+/// assert_eq!(refused.to_string(), told);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadInertialUnit {

@@ -3,6 +3,18 @@
 use thiserror::Error;
 
 /// Why there is no tare. Gauges count from 0.
+///
+/// ```
+/// use fingertip_wrench::{NotAtRest, RestTest};
+/// use nalgebra::Vector6;
+///
+/// let mut rest = RestTest::<f64, 6>::new(1e-3)?;
+/// rest.add(&Vector6::zeros());
+/// let refused = rest.finish().unwrap_err();
+/// assert_eq!(refused, NotAtRest::TooFewSamples { samples: 1, needed: 32 });
+/// assert_eq!(refused.to_string(), "at least 32 readings at rest are needed, not 1");
+/// # Ok::<(), NotAtRest>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotAtRest {

@@ -42,6 +42,15 @@ pub struct Payload<T: Real> {
 }
 
 /// Why numbers cannot be those of a body.
+///
+/// ```
+/// use fingertip_wrench::{BadPayload, Payload};
+/// use nalgebra::Vector3;
+///
+/// let refused = Payload::new(-0.02, Vector3::<f64>::zeros()).unwrap_err();
+/// assert_eq!(refused, BadPayload::BadMass);
+/// assert_eq!(refused.to_string(), "the mass of the payload is negative or not a finite number");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadPayload {

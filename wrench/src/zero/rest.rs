@@ -62,6 +62,22 @@ pub struct RestTest<T: Real, const N: usize> {
 const STRETCHES: usize = 32;
 
 /// The tare of a sensor that was at rest.
+///
+/// ```
+/// use fingertip_wrench::{NotAtRest, RestTest};
+/// use nalgebra::Vector6;
+///
+/// let mut rest = RestTest::<f64, 6>::new(1e-3)?;
+/// for i in 0..400 {
+///     // A zero of 0.2 V, and noise between −0.5 and 0.5 mV.
+///     rest.add(&Vector6::repeat(0.2 + (f64::from(i * 7919 % 101) - 50.0) * 1e-5));
+/// }
+/// let rested = rest.finish()?;
+/// assert!((rested.tare.zero()[0] - 0.2).abs() < 1e-5);
+/// assert!((rested.noise[0] - 0.29e-3).abs() < 0.01e-3); // 1 mV over √12
+/// assert!(rested.tare_noise[0] >= rested.noise[0] / 20.0); // of 400 readings
+/// # Ok::<(), NotAtRest>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

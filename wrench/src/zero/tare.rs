@@ -10,6 +10,14 @@ use crate::{Compensation, Real};
 /// Nothing in this library tares by itself: collect samples of the unloaded sensor with a
 /// [`RestTest`](crate::RestTest), or a bare [`TareAccumulator`], when *you* know that it is
 /// unloaded.
+///
+/// ```
+/// use fingertip_wrench::{Compensation, Tare};
+/// use nalgebra::Vector6;
+///
+/// let tare = Tare::new(Vector6::repeat(0.25));
+/// assert_eq!(tare.compensate(&Vector6::repeat(1.5)), Vector6::repeat(1.25));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -47,6 +55,19 @@ impl<T: Real, const N: usize> Compensation<SVector<T, N>> for Tare<T, N> {
 
 /// Mean and variance of readings at rest, one sample at a time (Welford's recurrence, which does
 /// not cancel).
+///
+/// ```
+/// use fingertip_wrench::TareAccumulator;
+/// use nalgebra::Vector6;
+///
+/// let mut rest = TareAccumulator::<f64, 6>::default();
+/// for reading in [0.9, 1.0, 1.1] {
+///     rest.add(&Vector6::repeat(reading));
+/// }
+/// assert!((rest.finish()?.zero()[0] - 1.0).abs() < 1e-15);
+/// assert!((rest.noise()?[0] - 0.1).abs() < 1e-15); // √((0.1² + 0.1²)/2)
+/// # Ok::<(), fingertip_wrench::TareError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TareAccumulator<T: Real, const N: usize> {
     samples: u32,
@@ -55,6 +76,17 @@ pub struct TareAccumulator<T: Real, const N: usize> {
 }
 
 /// Why readings give no tare.
+///
+/// ```
+/// use fingertip_wrench::{TareAccumulator, TareError};
+/// use nalgebra::Vector6;
+///
+/// let mut rest = TareAccumulator::<f64, 6>::default();
+/// rest.add(&Vector6::zeros());
+/// let refused = rest.finish().unwrap_err();
+/// assert_eq!(refused, TareError::TooFewSamples { samples: 1 });
+/// assert_eq!(refused.to_string(), "a tare needs at least 2 samples at rest, not 1");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TareError {

@@ -9,6 +9,18 @@ use crate::stored;
 use crate::{Compensation, Real};
 
 /// One raw reading of `N` gauges and of the temperature of the sensor.
+///
+/// ```
+/// use fingertip_wrench::{Compensation, GaugesAndTemperature, TemperatureCompensation};
+/// use nalgebra::Vector6;
+///
+/// // Zeros of 0.5 V at 20 °C, which drift by 2 mV per kelvin.
+/// let zero = [Vector6::repeat(0.5), Vector6::repeat(2e-3)];
+/// let model = TemperatureCompensation::<f64, 6, 2>::new(20.0, (0.0, 60.0), zero, [Vector6::zeros(); 2])?;
+/// let warm = GaugesAndTemperature { gauges: Vector6::repeat(0.52), temperature: 30.0 };
+/// assert!(model.compensate(&warm).amax() < 1e-15); // all of it is drift
+/// # Ok::<(), fingertip_wrench::BadTemperatureModel>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaugesAndTemperature<T: Real, const N: usize> {
     /// The gauges.
@@ -48,6 +60,18 @@ pub struct TemperatureCompensation<T: Real, const N: usize, const TERMS: usize> 
 }
 
 /// Why coefficients cannot be used.
+///
+/// ```
+/// use fingertip_wrench::{BadTemperatureModel, TemperatureCompensation};
+/// use nalgebra::Vector6;
+///
+/// // Fitted between 30 °C and 60 °C, yet said to have its zeros at 20 °C.
+/// let none = [Vector6::zeros()];
+/// let refused = TemperatureCompensation::<f64, 6, 1>::new(20.0, (30.0, 60.0), none, none).unwrap_err();
+/// assert_eq!(refused, BadTemperatureModel::BadRange);
+/// let told = "the temperature range must be finite and contain the reference temperature";
+/// assert_eq!(refused.to_string(), told);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadTemperatureModel {

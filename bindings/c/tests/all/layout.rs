@@ -46,10 +46,12 @@ fn here() -> Layout {
             load_per_signal, gauges,
         }
         ft_beside {
-            has_spread, has_tracked, has_touching, touching, has_slip_probability, has_stick_slip,
-            has_static_friction, has_kinetic_friction, has_grip_force, reserved, ellipse_semi_axes,
-            ellipse_directions, normal_force_deviation, spin_torque_deviation, tracked_point, tracked_normal,
-            tracked_velocity, slip_probability, stick_slip_period, static_friction, static_friction_deviation,
+            has_spread, has_tracked, has_touching, touching, has_touch, has_release, has_impact,
+            has_slip_probability, has_stick_slip, has_static_friction, has_kinetic_friction, has_grip_force,
+            continuity, reserved, ellipse_semi_axes, ellipse_directions, normal_force_deviation,
+            spin_torque_deviation, tracked_point, tracked_normal, tracked_velocity, tracked_tangents,
+            tracked_position_covariance, tracked_velocity_covariance, tracked_innovation, tracked_surprise,
+            touch_age, release_age, impact_peak, impact_impulse, impact_duration, slip_probability, stick_slip_period, static_friction, static_friction_deviation,
             kinetic_friction, kinetic_friction_deviation, grip_force,
         }
         ft_error { status, message }

@@ -2,14 +2,15 @@
 
 use core::ptr;
 
+use fingertip::contact::{Continuity, Happened, Impact, Tracked};
 use fingertip::wrench::{Motion, Wrench};
 use fingertip_c::{
-    ft_beside, ft_beside_last, ft_motion, ft_reading_of, ft_resolution, ft_sense, ft_sense_reading,
-    ft_sense_wrench, ft_sense_wrench_moving, ft_slip, ft_status, ft_tip_gauges, ft_tip_reset,
-    ft_tip_start_anew, ft_touch, ft_wrench,
+    ft_beside, ft_beside_last, ft_continuity, ft_motion, ft_reading_of, ft_resolution, ft_sense,
+    ft_sense_reading, ft_sense_wrench, ft_sense_wrench_moving, ft_slip, ft_status, ft_tip_gauges,
+    ft_tip_reset, ft_tip_start_anew, ft_touch, ft_wrench,
 };
 use fingertip_scene::{Felt, GaugeReading, Pipeline};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Vector3};
 
 use crate::{BALL, HEAD, Tip, bits, pushes, scene, written};
 
@@ -86,11 +87,16 @@ fn what_stands_beside_is_what_the_pipeline_says() {
     let (tip, mut pipeline) = (Tip::new(&text), scene(&text).pipeline());
     let beside = || -> ft_beside { written(|to| unsafe { ft_beside_last(tip.0, to) }).unwrap() };
     assert_eq!(beside(), ft_beside::default());
-    let mut seen = [0_u32; 6];
-    // A press that grows, and slips now and then.
+    let mut seen = [0_u32; 9];
+    // A press that grows, slips now and then, and ends; each begins with a blow.
     for k in 0..3000 {
         let slide = if k % 400 > 380 { 0.3 } else { 0.55 };
-        let force = Vector3::new(slide * f64::from(k % 400) / 200.0, 0.0, -2.0);
+        let press = match k % 1200 {
+            0..50 => 0.0,
+            50..60 => 6.0,
+            _ => 2.0,
+        };
+        let force = Vector3::new(slide * f64::from(k % 400) / 400.0, 0.0, -1.0) * press;
         let at = Vector3::z() * 0.013;
         let wrench = ft_wrench { force: force.into(), torque: at.cross(&force).into() };
         sense(&tip, &wrench, STEP);
@@ -100,14 +106,8 @@ fn what_stands_beside_is_what_the_pipeline_says() {
             felt.spread.map(|spread| (spread.ellipse.semi_axes, spread.normal_force, spread.spin_torque));
         let found = (told.ellipse_semi_axes, told.normal_force_deviation, told.spin_torque_deviation);
         assert_eq!((told.has_spread == 1).then_some(found), spread);
-        let tracked =
-            felt.tracked.map(|tracked| [tracked.point, tracked.normal, tracked.velocity].map(Into::into));
-        let found = [told.tracked_point, told.tracked_normal, told.tracked_velocity];
-        assert_eq!((told.has_tracked == 1).then_some(found), tracked);
-        assert_eq!(
-            (told.has_touching == 1).then_some(told.touching == 1),
-            felt.happened.map(|it| it.touching)
-        );
+        assert_eq!((told.has_tracked == 1).then_some(track_of(&told)), felt.tracked);
+        assert_eq!((told.has_touching == 1).then_some(happened_of(&told)), felt.happened);
         assert_eq!((told.has_slip_probability == 1).then_some(told.slip_probability), felt.slip_probability);
         let learnt = felt.friction.unwrap();
         let at_rest = learnt.at_rest.map(|it| (it.coefficient, it.deviation));
@@ -121,6 +121,9 @@ fn what_stands_beside_is_what_the_pipeline_says() {
             told.has_spread,
             told.has_tracked,
             told.touching,
+            told.has_touch,
+            told.has_release,
+            told.has_impact,
             told.has_slip_probability,
             told.has_static_friction,
             told.has_kinetic_friction,
@@ -128,6 +131,42 @@ fn what_stands_beside_is_what_the_pipeline_says() {
         seen.iter_mut().zip(flags).for_each(|(seen, flag)| *seen += flag);
     }
     assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
+}
+
+/// The track as C sees it, put together again.
+fn track_of(told: &ft_beside) -> Tracked<f64> {
+    let [row, other] = told.tracked_position_covariance;
+    let [fast, faster] = told.tracked_velocity_covariance;
+    Tracked {
+        point: told.tracked_point.into(),
+        normal: told.tracked_normal.into(),
+        tangents: told.tracked_tangents.map(Vector3::from),
+        velocity: told.tracked_velocity.into(),
+        position_covariance: Matrix2::new(row[0], row[1], other[0], other[1]),
+        velocity_covariance: Matrix2::new(fast[0], fast[1], faster[0], faster[1]),
+        innovation: told.tracked_innovation.into(),
+        surprise: told.tracked_surprise,
+        continuity: match told.continuity {
+            ft_continuity::FT_TRACK_NEW => Continuity::New,
+            ft_continuity::FT_TRACK_FOLLOWED => Continuity::Followed,
+            ft_continuity::FT_TRACK_DOUBTED => Continuity::Doubted,
+            ft_continuity::FT_TRACK_BRIDGED => Continuity::Bridged,
+        },
+    }
+}
+
+/// What happened as C sees it.
+fn happened_of(told: &ft_beside) -> Happened<f64> {
+    Happened {
+        touching: told.touching == 1,
+        touch: (told.has_touch == 1).then_some(told.touch_age),
+        release: (told.has_release == 1).then_some(told.release_age),
+        impact: (told.has_impact == 1).then(|| Impact {
+            peak: told.impact_peak,
+            impulse: told.impact_impulse.into(),
+            duration: told.impact_duration,
+        }),
+    }
 }
 
 const SENSOR: &str = "[sensor]\nsignal_unit = \"V\"\nload_per_signal_N_Nm = [\n\

@@ -307,12 +307,38 @@ macro_rules! face {
 
 face! {
     /// An ADS1255 or ADS1256 that goes through `N` inputs, blocking or polled.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::ads1256::{Ads1256, Configuration, Input, SimulatedAds1256};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    ///
+    /// // Two bridges, at pins 0 and 1, and 2 and 3.
+    /// let chip = SimulatedAds1256::new(|_, positive, _| if positive == 0 { 0.01 } else { -0.02 });
+    /// let bench = SimulatedBench::new(chip, WireFaults::default());
+    /// let mut converter = Ads1256::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+    /// converter.configure(&Configuration::new([Input::FIRST, Input::SECOND]))?;
+    /// // At gain 64 full scale is a 32nd of the reference.
+    /// assert_eq!(converter.read()?.counts, [2_684_354, -5_368_708]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     Ads1256, embedded_hal::spi::SpiDevice, InputPin, embedded_hal::delay::DelayNs, ready_in_time, [], []
 }
 
 face! {
     /// An ADS1255 or ADS1256 that goes through `N` inputs, in a task. After a call that was dropped while it was
     /// on the bus, or an error of the bus, the cycle begins anew.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::ads1256::{AsyncAds1256, Configuration, Input, SimulatedAds1256};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    /// # use fingertip_test_support::block_on;
+    ///
+    /// let bench = SimulatedBench::new(SimulatedAds1256::new(|_, _, _| 0.01), WireFaults::default());
+    /// let mut converter = AsyncAds1256::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+    /// block_on(converter.configure(&Configuration::new([Input::FIRST])))?;
+    /// assert_eq!(block_on(converter.read())?.counts, [2_684_354]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     AsyncAds1256, embedded_hal_async::spi::SpiDevice, embedded_hal_async::digital::Wait,
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }

@@ -23,6 +23,17 @@ enum Rest {
 /// It obeys commands, converts with the settling time of its rate, and counts what comes sooner than its
 /// times (t6, t11) allow: then it answers with ones. Not simulated: calibration other than the time that it
 /// takes, standby, continuous reading.
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::SimulatedAds1256;
+/// use fingertip_drivers::converters::{SimulatedBench, SimulatedDevice, WireFaults};
+///
+/// // A load that grows; after a reset the chip takes 30 000 conversions a second.
+/// let bench = SimulatedBench::new(SimulatedAds1256::new(|time, _, _| 0.01 * time), WireFaults::default());
+/// bench.advance(10_000_000);
+/// assert!(bench.with(|chip| chip.conversions()) > 40);
+/// assert_eq!(bench.with(|chip| chip.hurried()), 0);
+/// ```
 pub struct SimulatedAds1256 {
     /// Input over the reference, at a time \[s\] and between pins.
     input: Box<dyn FnMut(f64, u8, u8) -> f64 + Send>,

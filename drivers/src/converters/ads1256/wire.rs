@@ -1,6 +1,13 @@
 //! Commands, registers and readings.
 
 /// Addresses of registers.
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::{Command, Register};
+///
+/// let write = Command::WriteRegisters { address: Register::DRATE };
+/// assert_eq!(write.emit(), 0x53);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Register;
 
@@ -18,6 +25,13 @@ impl Register {
 }
 
 /// The first byte of a command.
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::Command;
+///
+/// assert_eq!(Command::Sync.emit(), 0xFC);
+/// assert_eq!(Command::parse(0x12), Some(Command::ReadRegisters { address: 2 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "named as in the data sheet, and listed in the module")]
 pub enum Command {
@@ -74,6 +88,13 @@ impl Command {
 }
 
 /// A pin of the multiplexer.
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::{Input, Pin};
+///
+/// // A single pin against the common one.
+/// assert_eq!(Input { positive: Pin::Ain5, negative: Pin::Common }.emit(), 0x58);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Pin {
@@ -89,6 +110,13 @@ pub enum Pin {
 }
 
 /// An input: one pin against another.
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::{Input, Pin};
+///
+/// assert_eq!(Input::THIRD, Input { positive: Pin::Ain4, negative: Pin::Ain5 });
+/// assert_eq!(Input::THIRD.emit(), 0x45);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Input {
     /// Positive pin.
@@ -115,6 +143,13 @@ impl Input {
 }
 
 /// Gain (`ADCON.PGA`).
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::Gain;
+///
+/// // With a reference of 2.5 V, full scale at gain 64 is 78 mV.
+/// assert_eq!(2.5 * Gain::X64.full_scale(), 0.078_125);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Gain {
@@ -143,6 +178,13 @@ impl Gain {
 }
 
 /// Conversions a second at a clock of 7.68 MHz (`DRATE`).
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::Rate;
+///
+/// // Where another input comes after each conversion, four of them at 1000 Hz last 4.7 ms.
+/// assert_eq!(4 * Rate::Hz1000.settling(), 4720);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Rate {
@@ -211,6 +253,22 @@ impl Rate {
 }
 
 /// What the device calibrates itself with.
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::{
+///     Ads1256, Calibration, Configuration, Input, SimulatedAds1256,
+/// };
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// let bench = SimulatedBench::new(SimulatedAds1256::new(|_, _, _| 0.01), WireFaults::default());
+/// let mut converter = Ads1256::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::new([Input::FIRST]))?;
+/// // Again, once it is warm; it takes some conversions.
+/// let before = bench.now();
+/// converter.calibrate(Calibration::Own)?;
+/// assert!(bench.now() - before > 1_000_000);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calibration {
     /// Its own offset and gain (SELFCAL).
@@ -233,6 +291,14 @@ impl Calibration {
 }
 
 /// What the registers are to hold.
+///
+/// ```
+/// use fingertip_drivers::converters::ads1256::{Configuration, Gain, Input, Rate};
+///
+/// let slow = Configuration { rate: Rate::Hz60, gain: Gain::X32, ..Configuration::new([Input::SECOND]) };
+/// // STATUS with the buffer on, MUX, ADCON, DRATE.
+/// assert_eq!(slow.registers(), [0b10, 0x23, 5, 0x72]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Configuration<const N: usize> {
     /// The inputs that it goes through.

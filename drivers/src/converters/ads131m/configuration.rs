@@ -3,6 +3,14 @@
 use super::wire::Register;
 
 /// Gain of a channel (`GAIN1`, `GAIN2`): the range is ±1.2 V divided by it.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Configuration, Gain};
+///
+/// // ±37.5 mV at gain 32.
+/// let configuration = Configuration::<4>::default().gain(Gain::X32);
+/// assert_eq!(configuration.full_scale(0, Configuration::<4>::REFERENCE), Some(0.0375));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Gain {
@@ -26,6 +34,15 @@ impl Gain {
 }
 
 /// What a channel converts (`CHn_CFG.MUX`).
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{ChannelSetup, Configuration, Gain, Input};
+///
+/// // Channel 1 shows its own offset; the register CH1_CFG is 0x0E.
+/// let mut configuration = Configuration::<2>::default();
+/// configuration.channels[1] = ChannelSetup { input: Input::Shorted, ..ChannelSetup::with_gain(Gain::X1) };
+/// assert!(configuration.registers().any(|register| register == (0x0E, 1)));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Input {
     /// Its pins.
@@ -40,6 +57,13 @@ pub enum Input {
 }
 
 /// How many modulator samples make one conversion (`CLOCK.OSR`).
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Configuration, Oversampling};
+///
+/// let slow = Configuration::<4> { oversampling: Oversampling::X4096, ..Configuration::default() };
+/// assert_eq!((slow.oversampling.ratio(), slow.data_rate(8.192e6)), (4096, 1000.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Oversampling {
@@ -63,6 +87,15 @@ impl Oversampling {
 }
 
 /// Power mode (`CLOCK.PWR`), which sets what the clock is divided by for the modulator.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Configuration, Power};
+///
+/// // As many conversions from half the clock, with less noise from more power.
+/// let low = Configuration::<4> { power: Power::Low, ..Configuration::default() };
+/// assert_eq!(low.data_rate(4.096e6), 1000.0);
+/// assert_eq!(Configuration::<4>::default().data_rate(4.096e6), 2000.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Power {
     /// By 8; clock up to 2.048 MHz.
@@ -83,6 +116,15 @@ impl Power {
 }
 
 /// One channel.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{ChannelSetup, Configuration, Gain};
+///
+/// // A fingertip with three bridges, at a chip with four channels.
+/// let mut configuration = Configuration::<4>::default().gain(Gain::X64);
+/// configuration.channels[3] = ChannelSetup::off();
+/// assert_eq!(configuration.enabled(), 0b0111);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelSetup {
     /// Whether it converts; it gives zeros if not.
@@ -118,6 +160,17 @@ impl Default for ChannelSetup {
 }
 
 /// The whole device.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Configuration, Gain, Oversampling, Register};
+///
+/// let configuration =
+///     Configuration::<8> { oversampling: Oversampling::X2048, lock: true, ..Configuration::default() }
+///         .gain(Gain::X32);
+/// assert_eq!(configuration.data_rate(8.192e6), 2000.0);
+/// // All channels on, the fourth ratio, high resolution.
+/// assert_eq!(configuration.registers().last(), Some((Register::CLOCK, 0xFF12)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Configuration<const N: usize> {
     /// The channels.

@@ -186,12 +186,37 @@ fn clocks(count: u32, clock: u32) -> u32 {
 
 face! {
     /// An ADS131M with `N` channels, blocking or polled.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, Gain, SimulatedAds131m};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    ///
+    /// // Four bridges, in volts.
+    /// let chip = SimulatedAds131m::new(|_| [0.001, -0.002, 0.003, 0.0]);
+    /// let bench = SimulatedBench::new(chip, WireFaults::default());
+    /// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+    /// converter.configure(&Configuration::<4>::default().gain(Gain::X32))?;
+    /// assert_eq!(converter.read()?.counts, [223_696, -447_392, 671_089, 0]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     Ads131m, embedded_hal::spi::SpiDevice, InputPin, embedded_hal::delay::DelayNs, ready_in_time, [], []
 }
 
 face! {
     /// An ADS131M with `N` channels, in a task. A call that is dropped while it waits for the pin loses
     /// nothing; one that is dropped while it is on the bus loses that conversion.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::ads131m::{AsyncAds131m, Configuration, Gain, SimulatedAds131m};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    /// # use fingertip_test_support::block_on;
+    ///
+    /// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.001, -0.002]), WireFaults::default());
+    /// let mut converter = AsyncAds131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+    /// block_on(converter.configure(&Configuration::<2>::default().gain(Gain::X32)))?;
+    /// assert_eq!(block_on(converter.read())?.counts, [223_696, -447_392]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     AsyncAds131m, embedded_hal_async::spi::SpiDevice, embedded_hal_async::digital::Wait,
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }

@@ -14,6 +14,23 @@ use crate::converters::SimulatedDevice;
 /// It obeys commands with their checksums, keeps registers, locks them, converts at the data rate that they
 /// set, holds two conversions, and gives the older one first. Not simulated: settling of the filter,
 /// standby, chopping, phase, the register CRC's value.
+///
+/// A disturbance changes a register, and the driver notices:
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, Register, SimulatedAds131m};
+/// use fingertip_drivers::converters::{
+///     ConverterError, ConverterFault, Patience, SimulatedBench, WireFaults,
+/// };
+///
+/// let bench = SimulatedBench::new(SimulatedAds131m::new(|_| [0.001; 2]), WireFaults::default());
+/// let mut converter = Ads131m::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::<2> { watch_registers: true, ..Configuration::default() })?;
+/// converter.read()?;
+/// bench.with(|chip| chip.disturb(Register::GAIN1, 1));
+/// assert_eq!(converter.read(), Err(ConverterError::Fault(ConverterFault::Reset)));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub struct SimulatedAds131m<const N: usize> {
     /// Volts at the inputs, at a time \[s\].
     input: Box<dyn FnMut(f64) -> [f64; N] + Send>,

@@ -13,6 +13,13 @@ const WORD: usize = 3;
 pub(super) const LONGEST: usize = 10 * WORD;
 
 /// Addresses of registers.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::Register;
+///
+/// // The configuration of channel 2.
+/// assert_eq!(Register::CH0_CFG + 2 * Register::PER_CHANNEL, 0x13);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Register;
 
@@ -34,6 +41,15 @@ impl Register {
 }
 
 /// The register `STATUS`, which answers NULL.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::Status;
+///
+/// // Just reset, with data of all four channels.
+/// let status = Status(0x050F);
+/// assert!(status.has(Status::RESET) && !status.has(Status::LOCK));
+/// assert_eq!(status.fresh(), 0b1111);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Status(pub u16);
 
@@ -63,6 +79,15 @@ impl Status {
 }
 
 /// What is sent to the device.
+///
+/// ```
+/// use fingertip_drivers::converters::ads131m::{Register, Request};
+///
+/// let mut frame = [0; 18]; // six words, of a chip with four channels
+/// Request::Write { address: Register::CLOCK, value: 0x0F0E }.emit(&mut frame);
+/// assert_eq!(frame[..6], [0x61, 0x80, 0, 0x0F, 0x0E, 0]);
+/// assert_eq!(Request::Read { address: Register::ID }.word(), 0xA000);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Request {
@@ -177,6 +202,18 @@ const fn aligned(word: u16) -> [u8; WORD] {
 }
 
 /// What the device sends in a frame.
+///
+/// ```
+/// use fingertip_drivers::converters::ConverterFault;
+/// use fingertip_drivers::converters::ads131m::Answer;
+///
+/// let mut frame = [0; Answer::<4>::LENGTH];
+/// let answer = Answer { response: 0x050F, counts: [1, -2, 3, -4] };
+/// answer.emit(&mut frame);
+/// assert_eq!(Answer::<4>::parse(&frame), Ok(answer));
+/// frame[5] ^= 1;
+/// assert!(matches!(Answer::<4>::parse(&frame), Err(ConverterFault::Checksum { .. })));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Answer<const N: usize> {
     /// The answer to the last command.

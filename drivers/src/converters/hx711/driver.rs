@@ -211,6 +211,20 @@ macro_rules! face {
 
 face! {
     /// `N` chips on one clock line, blocking or polled.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::hx711::{Hx711, Mode, SimulatedHx711s};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    ///
+    /// // Two bridges, with 1 mV/V and −2 mV/V.
+    /// let chips = SimulatedHx711s::new(|_| [(1e-3, 0.0), (-2e-3, 0.0)]);
+    /// let bench = SimulatedBench::new(chips, WireFaults::default());
+    /// let (clock, data, delay) = (bench.clock(), bench.data(), bench.delay());
+    /// let mut chips = Hx711::new(clock, data, delay, Mode::A128, Patience::default());
+    /// chips.start()?;
+    /// assert_eq!(chips.read()?.counts, [2_147_484, -4_294_967]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     Hx711<C, P, D>, InputPin, [delay], { D: embedded_hal::delay::DelayNs }, ready_in_time, delay,
     { delay: D, "Delay." }, [], []
 }
@@ -218,6 +232,19 @@ face! {
 face! {
     /// `N` chips on one clock line, in a task. `pulses` makes the pulses and blocks for some 60 µs; `delay`
     /// is for the waits between.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::hx711::{AsyncHx711, Mode, SimulatedHx711s};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    /// # use fingertip_test_support::block_on;
+    ///
+    /// let bench = SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0)]), WireFaults::default());
+    /// let (clock, data, delay, pulses) = (bench.clock(), bench.data(), bench.delay(), bench.delay());
+    /// let mut chip = AsyncHx711::new(clock, data, delay, pulses, Mode::A128, Patience::default());
+    /// block_on(chip.start())?;
+    /// assert_eq!(block_on(chip.read())?.counts, [2_147_484]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     AsyncHx711<C, P, D, B>, embedded_hal_async::digital::Wait, [pulses],
     { D: embedded_hal_async::delay::DelayNs, B: embedded_hal::delay::DelayNs }, ready_in_time_async, delay,
     { delay: D, "For waits.", pulses: B, "For pulses." }, [async], [.await]

@@ -28,6 +28,21 @@ struct Chip {
 /// `N` HX711 on one clock line, to be put on a [`SimulatedBench`]. Each has an oscillator of its own, quicker
 /// by 1 % from chip to chip. They switch off and reset themselves if the clock is high for 60 µs, change
 /// input and gain by the number of pulses, and settle.
+///
+/// The data lines are off, so that no chip is ready:
+///
+/// ```
+/// use fingertip_drivers::converters::hx711::{Hx711, Mode, SimulatedHx711s};
+/// use fingertip_drivers::converters::{Level, Patience, SimulatedBench, WireFaults};
+///
+/// let faults = WireFaults { stuck_data: Some(Level::High), ..WireFaults::default() };
+/// let bench = SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0), (1e-3, 0.0)]), faults);
+/// let (clock, data, delay) = (bench.clock(), bench.data(), bench.delay());
+/// let mut chips = Hx711::new(clock, data, delay, Mode::A128, Patience::default());
+/// chips.start()?;
+/// assert_eq!((chips.read().is_err(), chips.statistics().timeouts), (true, 1));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub struct SimulatedHx711s<const N: usize> {
     /// Output of the bridges over AVDD at the inputs A and B, at a time \[s\].
     input: Box<dyn FnMut(f64) -> [(f64, f64); N] + Send>,
@@ -197,6 +212,22 @@ impl<const N: usize> SimulatedBench<SimulatedHx711s<N>> {
 }
 
 /// The clock line of simulated chips.
+///
+/// ```
+/// use embedded_hal::digital::OutputPin;
+/// use fingertip_drivers::converters::hx711::SimulatedHx711s;
+/// use fingertip_drivers::converters::{SimulatedBench, WireFaults};
+///
+/// let bench = SimulatedBench::new(SimulatedHx711s::new(|_| [(1e-3, 0.0)]), WireFaults::default());
+/// let before = bench.with(|chips| chips.resets());
+/// // High for 60 µs switches the chips off; low again resets them.
+/// let mut clock = bench.clock();
+/// clock.set_high()?;
+/// bench.advance(70_000);
+/// clock.set_low()?;
+/// assert_eq!(bench.with(|chips| chips.resets()), before + 1);
+/// # Ok::<(), core::convert::Infallible>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SimulatedClock<const N: usize>(SimulatedBench<SimulatedHx711s<N>>);
 

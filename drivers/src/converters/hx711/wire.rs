@@ -3,6 +3,14 @@
 use crate::converters::{Conversion, ConverterFault, sign_extended};
 
 /// Input and gain.
+///
+/// ```
+/// use fingertip_drivers::converters::hx711::Mode;
+///
+/// // 27 pulses ask for input A at gain 64, whose range is ±7.8 mV/V.
+/// assert_eq!(Mode::of_pulses(27), Some(Mode::A64));
+/// assert_eq!(Mode::A64.full_scale(), 0.007_812_5);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// Input A at gain 128.
@@ -57,6 +65,20 @@ impl Mode {
 }
 
 /// Collects the bits of `N` chips, one of each at every pulse.
+///
+/// ```
+/// use fingertip_drivers::converters::hx711::{Mode, Shift};
+///
+/// // One chip sends 5, the other −1; both lines are high behind the bits.
+/// let mut shift = Shift::new();
+/// for pulse in 0..Mode::A128.pulses() {
+///     let bit = |word: u32| pulse < Mode::BITS && word >> (Mode::BITS - 1 - pulse) & 1 == 1;
+///     shift.push([bit(5), bit(0xFF_FFFF)]);
+/// }
+/// assert_eq!(shift.finish([true, true])?.counts, [5, -1]);
+/// assert_eq!(shift.finish([true, false]).unwrap_err().to_string(), "the data line of channel 1 is stuck");
+/// # Ok::<(), fingertip_drivers::converters::ConverterFault>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shift<const N: usize> {
     words: [u32; N],

@@ -1,6 +1,13 @@
 //! What the registers are to hold.
 
 /// An input in the list: its bit in `SCAN`, and its number in conversions.
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Channel, Configuration};
+///
+/// // Pin 0 against pin 1, and the thermometer inside: bits 8 and 12 of SCAN.
+/// assert_eq!(Configuration::new([Channel::PairA, Channel::Temperature]).scan(), 0x1100);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "pairs of pins, single pins against ground, and what is inside")]
 pub enum Channel {
@@ -27,6 +34,14 @@ pub enum Channel {
 }
 
 /// Gain (`CONFIG2.GAIN`).
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::Gain;
+///
+/// // With a reference of 3.3 V, full scale at gain 64 is 52 mV.
+/// assert!((3.3 * Gain::X64.full_scale() - 0.0516).abs() < 0.0001);
+/// assert_eq!(Gain::Third.full_scale(), 3.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Gain {
@@ -56,6 +71,13 @@ impl Gain {
 }
 
 /// Oversampling (`CONFIG1.OSR`).
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Oversampling};
+///
+/// let slow = Configuration { oversampling: Oversampling::X1024, ..Configuration::new([Channel::PairA]) };
+/// assert_eq!((slow.oversampling.ratio(), slow.data_rate(4.9152e6)), (1024, 1200.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Oversampling {
@@ -89,6 +111,14 @@ impl Oversampling {
 }
 
 /// Where the clock comes from (`CONFIG0.CLK_SEL`).
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Channel, Clock, Configuration};
+///
+/// // The first of several chips, whose clock the others take: CONFIG0 holds it in bits 5 and 4.
+/// let first = Configuration { clock: Clock::InternalPutOut, ..Configuration::new([Channel::PairA]) };
+/// assert_eq!(first.registers()[0] >> 4 & 0b11, 0b11);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Clock {
     /// From the pin.
@@ -101,6 +131,14 @@ pub enum Clock {
 }
 
 /// Where the reference comes from (`CONFIG0[7:6]`).
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Reference};
+///
+/// // An MCP3564R at whose pins the excitation is: the reference inside is off.
+/// let ratiometric = Configuration { reference: Reference::PinsOfR, ..Configuration::new([Channel::PairA]) };
+/// assert_eq!(ratiometric.registers()[0] >> 6, 0b01);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reference {
     /// From the pins, on a type without R.
@@ -113,6 +151,18 @@ pub enum Reference {
 }
 
 /// What the registers are to hold.
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Gain, Oversampling};
+///
+/// let two_bridges = Configuration {
+///     gain: Gain::X64,
+///     oversampling: Oversampling::X256,
+///     ..Configuration::new([Channel::PairA, Channel::PairB])
+/// };
+/// // A sample of both takes two conversions.
+/// assert_eq!(two_bridges.data_rate(4.9152e6) / 2.0, 2400.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Configuration<const N: usize> {
     /// The inputs, each once, in the order in which a sample gives them.

@@ -217,11 +217,41 @@ macro_rules! face {
 
 face! {
     /// An MCP3564 that goes through `N` inputs, blocking or polled.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::mcp3564::{
+    ///     Channel, Configuration, Gain, Mcp3564, SimulatedMcp3564,
+    /// };
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    ///
+    /// // Two bridges, whose numbers are 8 and 9.
+    /// let chip = SimulatedMcp3564::new(false, |_, channel| if channel == 8 { 1e-3 } else { -2e-3 });
+    /// let bench = SimulatedBench::new(chip, WireFaults::default());
+    /// let mut converter = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+    /// let inputs = [Channel::PairA, Channel::PairB];
+    /// converter.configure(&Configuration { gain: Gain::X64, ..Configuration::new(inputs) })?;
+    /// assert_eq!(converter.read()?.counts, [536_871, -1_073_742]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     Mcp3564, embedded_hal::spi::SpiDevice, InputPin, embedded_hal::delay::DelayNs, ready_in_time, [], []
 }
 
 face! {
     /// An MCP3564 that goes through `N` inputs, in a task.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::mcp3564::{
+    ///     AsyncMcp3564, Channel, Configuration, SimulatedMcp3564,
+    /// };
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    /// # use fingertip_test_support::block_on;
+    ///
+    /// let bench = SimulatedBench::new(SimulatedMcp3564::new(false, |_, _| 0.25), WireFaults::default());
+    /// let mut converter = AsyncMcp3564::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+    /// block_on(converter.configure(&Configuration::new([Channel::PairA])))?;
+    /// assert_eq!(block_on(converter.read())?.counts, [2_097_152]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     AsyncMcp3564, embedded_hal_async::spi::SpiDevice, embedded_hal_async::digital::Wait,
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }

@@ -14,6 +14,22 @@ use crate::converters::SimulatedDevice;
 /// It obeys fast commands, keeps and locks registers, goes through its list and marks what is new. Not
 /// simulated: settling of the filter, offset calibration, delays in the list, formats other than that with
 /// channel numbers.
+///
+/// The supply dips. Then the chip converts nothing until it is configured:
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Mcp3564, SimulatedMcp3564};
+/// use fingertip_drivers::converters::{
+///     ConverterError, ConverterFault, Patience, SimulatedBench, WireFaults,
+/// };
+///
+/// let bench = SimulatedBench::new(SimulatedMcp3564::new(false, |_, _| 0.25), WireFaults::default());
+/// let mut converter = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::new([Channel::PairA]))?;
+/// bench.with(|chip| chip.power_cycle());
+/// assert_eq!(converter.read(), Err(ConverterError::Fault(ConverterFault::Timeout)));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub struct SimulatedMcp3564 {
     /// Input over the reference, at a time \[s\] and of the channel of that number.
     input: Box<dyn FnMut(f64, u8) -> f64 + Send>,

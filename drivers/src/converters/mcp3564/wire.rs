@@ -8,6 +8,12 @@ use crate::converters::{ConverterFault, sign_extended};
 const CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_UMTS);
 
 /// Addresses of registers.
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::Register;
+///
+/// assert_eq!((Register::length(Register::CONFIG0), Register::length(Register::SCAN)), (1, 3));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Register;
 
@@ -40,6 +46,13 @@ impl Register {
 }
 
 /// Commands of one byte.
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{FastCommand, Request};
+///
+/// // For device address 1.
+/// assert_eq!(Request::Fast(FastCommand::Start).emit(1), 0b0110_1000);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum FastCommand {
@@ -51,6 +64,14 @@ pub enum FastCommand {
 }
 
 /// The first byte of what is sent.
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::{Register, Request};
+///
+/// let read = Request::Read { address: Register::ADCDATA };
+/// assert_eq!(read.emit(1), 0b0100_0001);
+/// assert_eq!(Request::parse(0b0100_0001), (1, Some(read)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request {
     /// A fast command.
@@ -101,6 +122,15 @@ impl Request {
 }
 
 /// The byte with which the device answers every command.
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::Status;
+///
+/// // Of device address 1: flags are up when their bits are down.
+/// let status = Status(0b0001_0011);
+/// assert!(status.is_of(1) && status.is_new());
+/// assert!(!status.registers_damaged() && !status.was_off());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Status(pub u8);
 
@@ -171,6 +201,14 @@ pub(super) fn checksum(status_and_data: &[u8]) -> [u8; 2] {
 }
 
 /// A conversion as it stands in `ADCDATA` (`DATA_FORMAT` 11).
+///
+/// ```
+/// use fingertip_drivers::converters::mcp3564::Data;
+///
+/// // −2 at input 8, the sign over all bits that are left.
+/// assert_eq!(Data::parse([0x8F, 0xFF, 0xFF, 0xFE]), Ok(Data { channel: 8, counts: -2 }));
+/// assert!(Data::parse([0x8E, 0xFF, 0xFF, 0xFE]).is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Data {
     /// Number of the input, 0 to 15.

@@ -217,11 +217,36 @@ macro_rules! face {
 
 face! {
     /// An NAU7802, blocking or polled.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::nau7802::{Configuration, Nau7802, SimulatedNau7802};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    ///
+    /// // A bridge that gives 1 mV/V, at gain 128.
+    /// let bench = SimulatedBench::new(SimulatedNau7802::new(|_, _| 1e-3), WireFaults::default());
+    /// let mut converter = Nau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
+    /// converter.configure(&Configuration::default())?;
+    /// assert_eq!(converter.read()?.counts, [2_147_484]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     Nau7802, embedded_hal::i2c::I2c, InputPin, embedded_hal::delay::DelayNs, ready_in_time, [], []
 }
 
 face! {
     /// An NAU7802 in a task.
+    ///
+    /// ```
+    /// use fingertip_drivers::converters::nau7802::{AsyncNau7802, Configuration, SimulatedNau7802};
+    /// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+    /// # use fingertip_test_support::block_on;
+    ///
+    /// let bench = SimulatedBench::new(SimulatedNau7802::new(|_, _| 1e-3), WireFaults::default());
+    /// let mut converter =
+    ///     AsyncNau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
+    /// block_on(converter.configure(&Configuration::default()))?;
+    /// assert_eq!(block_on(converter.read())?.counts, [2_147_484]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     AsyncNau7802, embedded_hal_async::i2c::I2c, embedded_hal_async::digital::Wait,
     embedded_hal_async::delay::DelayNs, ready_in_time_async, [async], [.await]
 }

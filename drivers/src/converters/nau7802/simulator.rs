@@ -10,6 +10,19 @@ use crate::converters::{Inner, Level, Reading, SimulatedBench, SimulatedDevice, 
 
 /// An NAU7802, to be put on a [`SimulatedBench`]. It powers up, converts at the rate of its registers, calibrates
 /// its offset (which it has, 1000 counts) and says when it cannot. Not simulated: the filter, gain calibration.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Nau7802, SimulatedNau7802};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// // A bridge that gives 5 mV/V is beyond the range at gain 128.
+/// let bench = SimulatedBench::new(SimulatedNau7802::new(|_, _| 5e-3), WireFaults::default());
+/// let mut converter = Nau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::default())?;
+/// assert_eq!(converter.read()?.saturated, [true]);
+/// assert!(bench.with(|chip| chip.conversions()) > 0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub struct SimulatedNau7802 {
     /// Output of the bridge over the reference, at a time \[s\] and an input (0 or 1).
     input: Box<dyn FnMut(f64, usize) -> f64 + Send>,
@@ -208,6 +221,20 @@ impl SimulatedBench<SimulatedNau7802> {
 
 /// The bus of a simulated chip, blocking and for tasks. A data line that is stuck low gives zeros; one that is
 /// stuck high gives no acknowledgement.
+///
+/// ```
+/// use embedded_hal::i2c::I2c;
+/// use fingertip_drivers::converters::nau7802::{ADDRESS, Register, SimulatedNau7802};
+/// use fingertip_drivers::converters::{SimulatedBench, WireFaults};
+///
+/// let bench = SimulatedBench::new(SimulatedNau7802::new(|_, _| 1e-3), WireFaults::default());
+/// let mut revision = [0];
+/// bench.i2c().write_read(ADDRESS, &[Register::REVISION], &mut revision)?;
+/// assert_eq!(revision, [0x0F]);
+/// // Nobody is at another address.
+/// assert!(bench.i2c().write(ADDRESS + 1, &[0]).is_err());
+/// # Ok::<(), embedded_hal::i2c::ErrorKind>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SimulatedI2c(SimulatedBench<SimulatedNau7802>);
 

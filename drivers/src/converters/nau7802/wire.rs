@@ -4,6 +4,13 @@
 pub const ADDRESS: u8 = 0x2A;
 
 /// Addresses of registers.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Gain, Register};
+///
+/// let registers = Configuration { gain: Gain::X16, ..Configuration::default() }.registers();
+/// assert!(registers.contains(&(Register::CTRL1, 0b1000_0100)));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Register;
 
@@ -26,6 +33,14 @@ impl Register {
 }
 
 /// Bits of `PU_CTRL`.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Control};
+///
+/// let crystal = Configuration { crystal: true, ..Configuration::default() };
+/// assert_eq!(crystal.running() & Control::CRYSTAL, Control::CRYSTAL);
+/// assert_eq!(Configuration::default().running() & Control::CRYSTAL, 0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Control;
 
@@ -46,6 +61,13 @@ pub(super) const CALIBRATE: u8 = 1 << 2;
 pub(super) const CALIBRATION_ERROR: u8 = 1 << 3;
 
 /// Gain of the amplifier.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::Gain;
+///
+/// // ±7.8 mV/V.
+/// assert_eq!(Gain::X64.full_scale(), 0.007_812_5);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Gain {
@@ -75,6 +97,13 @@ impl Gain {
 }
 
 /// Conversions a second.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Rate};
+///
+/// assert_eq!(Rate::Hz320.hertz(), 320.0);
+/// assert_eq!(Configuration { rate: Rate::Hz320, ..Configuration::default() }.control2(), 0b0111_0000);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Rate {
@@ -101,6 +130,15 @@ impl Rate {
 }
 
 /// Voltage of the regulator for bridge and analogue part.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Control, Regulator};
+///
+/// // The chip feeds bridge and analogue part with 3.0 V.
+/// let fed = Configuration { regulator: Some(Regulator::V3_0), ..Configuration::default() };
+/// assert!(fed.running() & Control::REGULATOR != 0);
+/// assert_eq!(fed.registers()[0].1 >> 3 & 0b111, 0b101);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their names say it")]
 pub enum Regulator {
@@ -115,6 +153,20 @@ pub enum Regulator {
 }
 
 /// Which input is converted.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Input, Nau7802, SimulatedNau7802};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// // Two bridges at one chip, one after the other.
+/// let chip = SimulatedNau7802::new(|_, input| if input == 0 { 1e-3 } else { -2e-3 });
+/// let bench = SimulatedBench::new(chip, WireFaults::default());
+/// let mut converter = Nau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::default())?;
+/// converter.select(Input::Second)?;
+/// assert_eq!(converter.read()?.counts, [-4_294_967]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Input {
     /// VIN1.
@@ -125,6 +177,19 @@ pub enum Input {
 }
 
 /// What the device calibrates itself with (`CTRL2.CALMOD`).
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Calibration, Configuration, Nau7802, SimulatedNau7802};
+/// use fingertip_drivers::converters::{Patience, SimulatedBench, WireFaults};
+///
+/// let bench = SimulatedBench::new(SimulatedNau7802::new(|_, _| 1e-3), WireFaults::default());
+/// let mut converter = Nau7802::new(bench.i2c(), bench.data_ready(), bench.delay(), Patience::default());
+/// converter.configure(&Configuration::default())?;
+/// // What is there now becomes zero.
+/// converter.calibrate(Calibration::SystemOffset)?;
+/// assert_eq!(converter.read()?.counts, [0]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calibration {
     /// Its own offset, with its inputs shorted inside.
@@ -137,6 +202,15 @@ pub enum Calibration {
 }
 
 /// What the registers are to hold.
+///
+/// ```
+/// use fingertip_drivers::converters::nau7802::{Configuration, Rate};
+///
+/// // Gain 128 and 80 Hz unless another is stated.
+/// let slow = Configuration { rate: Rate::Hz10, ..Configuration::default() };
+/// assert_eq!((slow.gain.factor(), slow.rate.hertz()), (128.0, 10.0));
+/// assert_eq!(Configuration::default().rate.hertz(), 80.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Configuration {
     /// Gain.

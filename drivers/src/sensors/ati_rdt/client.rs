@@ -17,6 +17,21 @@ use crate::sensors::datagram_socket::DatagramSocket;
 use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why a client has no wrench to give.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_drivers::sensors::ati_rdt::{ClientError, CountsPerUnit, RdtClient};
+/// use fingertip_drivers::{Source, SourceError, SourceErrorKind};
+///
+/// // Somebody is there, and says nothing.
+/// let deaf = std::net::UdpSocket::bind("127.0.0.1:0")?;
+/// let wait = Duration::from_millis(10);
+/// let mut client = RdtClient::<f64>::connect(deaf.local_addr()?, CountsPerUnit::million()?, wait)?;
+/// let error = client.next_sample().unwrap_err();
+/// assert!(matches!(error, ClientError::Timeout { timeout } if timeout == wait));
+/// assert_eq!(error.kind(), SourceErrorKind::Timeout);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ClientError {
@@ -60,6 +75,24 @@ const LARGEST: usize = 2048;
 
 /// Streams wrenches from a sensor. Never sets its bias unless [`bias`](Self::bias) is called; tells
 /// it to stop when dropped.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::FaultPlan;
+/// use fingertip_drivers::sensors::ati_rdt::{CountsPerUnit, RdtClient, RdtServer, SimulatedNetFt};
+///
+/// // In place of the sensor: one on this machine that is pressed with 2 N.
+/// let (sensor, period) = (SimulatedNetFt::new(FaultPlan::default()), Duration::from_millis(1));
+/// let server = RdtServer::start("127.0.0.1:0", sensor, period, |_| [0, 0, -2_000_000, 0, 0, 0])?;
+///
+/// let counts = CountsPerUnit::million()?;
+/// let mut client =
+///     RdtClient::<f64>::connect(server.address(), counts, Duration::from_secs(2))?.timed_by(1000.0);
+/// let sample = client.next_sample()?.unwrap();
+/// assert!((sample.value.force().z + 2.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct RdtClient<T: Real> {
     socket: DatagramSocket,

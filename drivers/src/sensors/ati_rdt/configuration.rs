@@ -7,6 +7,14 @@ use thiserror::Error;
 use super::receiver::{CountsPerUnit, RdtError};
 
 /// Why a page tells nothing that can be used.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::Configuration;
+///
+/// let page = "<netft><cfgcpf>1000000</cfgcpf><cfgcpt>1000000</cfgcpt><scfgfu>dyn</scfgfu></netft>";
+/// let told = Configuration::parse(page).unwrap_err().to_string();
+/// assert_eq!(told, "element <scfgfu> is “dyn”; known are N, lbf, klbf, kN, kgf");
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ConfigurationError {
@@ -43,6 +51,19 @@ pub enum ConfigurationError {
 ///
 /// The page is that of the manual 9620-05-NET FT, chapter "Common Gateway Interface"; it is asked for
 /// with [`REQUEST`](Self::REQUEST). Where an element stands is not relied on, only its name.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::Configuration;
+///
+/// // A sensor that is set to newton millimetres: a thousand counts each, a million a newton metre.
+/// let page = "<netft><scfgfu>N</scfgfu><scfgtu>Nmm</scfgtu><cfgcpf>1000000</cfgcpf><cfgcpt>1000</cfgcpt>\
+///     <comrdtrate>7000</comrdtrate></netft>";
+/// let configuration = Configuration::parse(page)?;
+/// assert_eq!(configuration.counts_per_newton, 1e6);
+/// assert_eq!(configuration.counts_per_newton_metre, 1e6);
+/// assert_eq!(configuration.rate, Some(7000.0));
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::ConfigurationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Configuration {
     /// Counts per newton: those per force unit, converted.

@@ -9,6 +9,14 @@ use crate::sensors::{Arrival, LinkStatistics, SequenceWatch};
 use crate::{SourceError, SourceErrorKind};
 
 /// How many counts a newton and a newton metre are.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::CountsPerUnit;
+///
+/// let wrench = CountsPerUnit::<f64>::million()?.wrench(&[0, 0, -2_000_000, 0, 13_000, 0]);
+/// assert!((wrench.force().z + 2.0).abs() < 1e-12 && (wrench.torque().y - 0.013).abs() < 1e-12);
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::RdtError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountsPerUnit<T> {
     newtons_per_count: T,
@@ -16,6 +24,16 @@ pub struct CountsPerUnit<T> {
 }
 
 /// Why a record gives no wrench, or a receiver cannot be made.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::{CountsPerUnit, Receiver, Record};
+///
+/// let mut receiver = Receiver::<f64>::new(CountsPerUnit::million()?);
+/// let saturated = Record { rdt_sequence: 1, status: 0x8002_0000, ..Record::default() };
+/// let told = "record 1: the sensor reports status 0x80020000; see the status word in its manual";
+/// assert_eq!(receiver.accept(&saturated).unwrap_err().to_string(), told);
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::RdtError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum RdtError {
@@ -101,6 +119,21 @@ impl<T: Real> CountsPerUnit<T> {
 }
 
 /// Takes records in the order in which they come and gives the wrenches of those that are news.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::{CountsPerUnit, Receiver, Record};
+///
+/// let mut receiver = Receiver::<f64>::new(CountsPerUnit::million()?);
+/// // Record 3 is lost, and 2 comes twice.
+/// let mut given = Vec::new();
+/// for rdt_sequence in [1, 2, 2, 4] {
+///     let record = Record { rdt_sequence, counts: [0, 0, -1_000_000, 0, 0, 0], ..Record::default() };
+///     given.extend(receiver.accept(&record)?.map(|_| rdt_sequence));
+/// }
+/// assert_eq!(given, [1, 2, 4]);
+/// assert_eq!((receiver.statistics().lost, receiver.statistics().duplicates), (1, 1));
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::RdtError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Receiver<T> {
     counts: CountsPerUnit<T>,

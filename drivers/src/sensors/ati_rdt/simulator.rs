@@ -14,6 +14,26 @@ use crate::sensors::{Pace, Served, SimulatedSensor};
 pub type SimulatedNetFt = SimulatedSensor<NetFt>;
 
 /// What is a Net F/T's own.
+///
+/// ```
+/// use fingertip_drivers::sensors::FaultPlan;
+/// use fingertip_drivers::sensors::ati_rdt::{Command, RecordPacket, Request, SimulatedNetFt};
+///
+/// let mut sensor = SimulatedNetFt::new(FaultPlan::default());
+/// sensor.sample([0, 0, -5, 0, 0, 0]);
+/// // Its zero is what it felt then; it streams two records.
+/// sensor.request(&Request { command: Command::Bias, count: 0 }.emit());
+/// sensor.request(&Request { command: Command::Stream, count: 2 }.emit());
+/// for force in [-7, -8, -9] {
+///     sensor.sample([0, 0, force, 0, 0, 0]);
+/// }
+/// let mut forces = Vec::new();
+/// while let Some(datagram) = sensor.datagram() {
+///     forces.push(RecordPacket::new_checked(&datagram)?.counts()[2]);
+/// }
+/// assert_eq!(forces, [-2, -3]);
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::WireError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct NetFt {
     left: Option<u32>,

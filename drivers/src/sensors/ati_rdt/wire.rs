@@ -3,6 +3,13 @@
 use thiserror::Error;
 
 /// What a client asks of the sensor.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::{Command, Request};
+///
+/// let request = Request { command: Command::Bias, count: 0 };
+/// assert_eq!(request.emit()[2..4], [0, 0x42]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Command {
@@ -38,6 +45,15 @@ impl Command {
 }
 
 /// Bytes that are no RDT message.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::{RecordPacket, Request};
+///
+/// let told = RecordPacket::new_checked(&[0; 30]).unwrap_err().to_string();
+/// assert_eq!(told, "30 bytes where 36 (or a multiple, for records) are a message");
+/// let told = Request::parse(&[0; 8]).unwrap_err().to_string();
+/// assert_eq!(told, "a request must start with 0x1234, not 0x0000");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum WireError {
@@ -64,6 +80,14 @@ pub enum WireError {
 }
 
 /// A request, 8 bytes.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::{Command, Request};
+///
+/// let request = Request { command: Command::Stream, count: 0 };
+/// assert_eq!(request.emit(), [0x12, 0x34, 0, 2, 0, 0, 0, 0]);
+/// assert_eq!(Request::parse(&request.emit()), Ok(request));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Request {
     /// What is asked for.
@@ -104,6 +128,15 @@ impl Request {
 }
 
 /// One record over the bytes of a datagram, without a copy.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::{Record, RecordPacket};
+///
+/// let datagram = Record { rdt_sequence: 7, counts: [0, 0, -5, 0, 0, 0], ..Record::default() }.emit();
+/// let packet = RecordPacket::new_checked(&datagram)?;
+/// assert_eq!((packet.rdt_sequence(), packet.status(), packet.counts()[2]), (7, 0, -5));
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::WireError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordPacket<'a> {
     bytes: &'a [u8; Record::LENGTH],
@@ -149,6 +182,17 @@ impl<'a> RecordPacket<'a> {
 }
 
 /// One record, 36 bytes.
+///
+/// ```
+/// use fingertip_drivers::sensors::ati_rdt::{Record, records};
+///
+/// let record = |rdt_sequence| Record { rdt_sequence, ..Record::default() };
+/// // Two of them in one datagram.
+/// let datagram = [record(1).emit(), record(2).emit()].concat();
+/// let found: Vec<_> = records(&datagram)?.map(|packet| Record::parse(&packet)).collect();
+/// assert_eq!(found, [record(1), record(2)]);
+/// # Ok::<(), fingertip_drivers::sensors::ati_rdt::WireError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Record {
     /// Number of the record since streaming began.

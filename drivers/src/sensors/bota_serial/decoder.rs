@@ -8,6 +8,18 @@ use crate::sensors::line::{Deframer, LineDecoder, LineStatistics, finite_wrench}
 use crate::{Sample, SourceError, SourceErrorKind};
 
 /// What the sensor says is wrong with a sample.
+///
+/// ```
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::{Source, SourceError, SourceErrorKind};
+///
+/// let bytes = Frame { status: Frame::OVERRANGE, microseconds: 1250, ..Frame::default() }.emit();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], BotaDecoder::new());
+/// let error = sensor.next_sample().unwrap_err();
+/// assert_eq!(error.to_string(), "the sensor is overloaded at its time 1250 µs");
+/// assert_eq!(error.kind(), SourceErrorKind::Overload);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BotaFault {
@@ -43,6 +55,26 @@ impl SourceError for BotaFault {
 /// A frame whose time is not after that of the newest one is a repetition or comes late: it is counted and not
 /// given. If [`RESTARTED`](Self::RESTARTED) of them in a row follow on each other, the sensor has been switched
 /// off and on, and time goes on from there.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
+/// use fingertip_drivers::sensors::line::LineSensor;
+///
+/// // In place of the port: two frames, and bytes between them that mean nothing.
+/// let frame = |microseconds, fz| Frame {
+///     microseconds,
+///     components: [0.0, 0.0, fz, 0.0, 0.0, 0.0],
+///     ..Frame::default()
+/// };
+/// let bytes = [&frame(1000, -2.0).emit()[..], &[0xAA, 7, 7], &frame(2000, -3.0).emit()].concat();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], BotaDecoder::new());
+/// let first = sensor.next_sample()?.unwrap();
+/// let second = sensor.next_sample()?.unwrap();
+/// assert_eq!((first.time, first.value.force().z), (Some(0.0), -2.0));
+/// assert_eq!((second.time, second.value.force().z), (Some(0.001), -3.0));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct BotaDecoder {
     deframer: Deframer<Frame, { Frame::LENGTH }>,

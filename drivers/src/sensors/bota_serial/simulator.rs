@@ -7,6 +7,18 @@ use crate::sensors::line::{SerialDevice, SerialSample};
 
 /// A sensor that streams, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial). It does not hear: configuration
 /// is not here.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, SimulatedBota};
+/// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
+///
+/// let port = SimulatedSerial::new(SimulatedBota::new(1000.0), LineFaults::default());
+/// let mut sensor = LineSensor::<_, f64, _>::new(port, BotaDecoder::new());
+/// sensor.line_mut().sample([0.0, 0.0, -2.0, 0.0, 0.0, 0.0]);
+/// assert_eq!(sensor.next_sample()?.unwrap().value.force().z, -2.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulatedBota {
     /// Time from one frame to the next, by which its clock goes on \[s\].

@@ -18,6 +18,15 @@ use crate::sensors::line::FrameFormat;
 const CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_SDLC);
 
 /// One sample of the sensor.
+///
+/// ```
+/// use fingertip_drivers::sensors::bota_serial::Frame;
+///
+/// let frame = Frame { microseconds: 1000, temperature: 25.0, ..Frame::default() };
+/// let bytes = frame.emit();
+/// assert_eq!((bytes[0], bytes.len()), (Frame::HEADER, 37));
+/// assert_eq!(Frame::parse(&bytes), Ok(frame));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Status bits: 1 a gauge is over its range, 2 the numbers are invalid; others reserved.
@@ -31,6 +40,17 @@ pub struct Frame {
 }
 
 /// Bytes that are no frame.
+///
+/// ```
+/// use fingertip_drivers::sensors::bota_serial::{Frame, FrameError};
+///
+/// let mut bytes = Frame::default().emit();
+/// assert_eq!(Frame::parse(&bytes[1..]), Err(FrameError::Length { found: 36 }));
+/// bytes[5] ^= 1;
+/// assert!(matches!(Frame::parse(&bytes), Err(FrameError::Checksum { .. })));
+/// bytes[0] = 0x55;
+/// assert_eq!(Frame::parse(&bytes).unwrap_err().to_string(), "a frame must start with 0xaa, not 0x55");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum FrameError {

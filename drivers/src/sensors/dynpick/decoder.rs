@@ -9,6 +9,24 @@ use crate::sensors::line::{Deframer, LineDecoder, LineStatistics};
 use crate::{Sample, SourceError, SourceErrorKind};
 
 /// What is wrong with a reading.
+///
+/// ```
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::dynpick::{DynPickDecoder, Reading};
+/// use fingertip_drivers::sensors::line::LineDecoder;
+///
+/// // Fy is at the end of the converter's range.
+/// let mut raw = [Reading::ZERO; 6];
+/// raw[1] = Reading::GREATEST;
+/// let mut decoder = DynPickDecoder::new(AxisCounts::uniform(24.9, 1664.0)?);
+/// let found = Reading { tick: 0, raw }
+///     .emit()
+///     .into_iter()
+///     .find_map(|byte| LineDecoder::<f64>::push(&mut decoder, byte));
+/// let told = found.unwrap().unwrap_err().to_string();
+/// assert_eq!(told, "axis 1 (Fx, Fy, Fz, Tx, Ty, Tz from 0) is at the end of its range");
+/// # Ok::<(), fingertip_drivers::sensors::BadAxisCounts>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum DynPickFault {
@@ -27,6 +45,23 @@ impl SourceError for DynPickFault {
 }
 
 /// Decodes what the sensor sends. Samples have no time.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::dynpick::{DynPickDecoder, REQUEST, SimulatedDynPick};
+/// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
+/// use std::io::Write;
+///
+/// let counts = AxisCounts::uniform(25.0, 1664.0)?;
+/// let port = SimulatedSerial::new(SimulatedDynPick::new(counts), LineFaults::default());
+/// let mut sensor = LineSensor::<_, f64, _>::new(port, DynPickDecoder::new(counts));
+/// // Each reading is asked for.
+/// sensor.line_mut().write_all(&[REQUEST])?;
+/// sensor.line_mut().sample([0.0, 0.0, -2.0, 0.0, 0.0, 0.0]);
+/// assert_eq!(sensor.next_sample()?.unwrap().value.force().z, -2.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct DynPickDecoder {
     counts: AxisCounts,

@@ -5,6 +5,14 @@ use thiserror::Error;
 use crate::sensors::axis_counts::{AxisCounts, BadAxisCounts};
 
 /// An answer that gives no sensitivities.
+///
+/// ```
+/// use fingertip_drivers::sensors::dynpick::{Sensitivities, SensitivitiesError};
+///
+/// let refused = Sensitivities::parse(b"24.9,24.8,25.0\r\n").unwrap_err();
+/// assert_eq!(refused, SensitivitiesError::Count { found: 3 });
+/// assert_eq!(refused.to_string(), "the answer has 3 numbers between commas where six are needed");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SensitivitiesError {
@@ -30,6 +38,18 @@ pub enum SensitivitiesError {
 
 /// Counts per newton and per newton metre of the six axes, as the sensor sends them: six decimal
 /// numbers, commas between them, a line end.
+///
+/// ```
+/// use fingertip_drivers::sensors::dynpick::{DynPickDecoder, Sensitivities};
+/// use fingertip_wrench::Wrench;
+///
+/// let told = Sensitivities::parse(b"024.90,024.80,025.00,1664.0,1640.0,1660.0\r\n")?;
+/// let wrench: Wrench<f64> = told.counts().wrench([0, 0, -50, 0, 0, 0]);
+/// assert!((wrench.force().z + 2.0).abs() < 1e-12);
+/// let decoder = DynPickDecoder::new(told.counts());
+/// # let _ = decoder;
+/// # Ok::<(), fingertip_drivers::sensors::dynpick::SensitivitiesError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensitivities(AxisCounts);
 

@@ -8,6 +8,21 @@ use crate::sensors::axis_counts::AxisCounts;
 use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
 
 /// A sensor that answers each request, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
+///
+/// ```
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::dynpick::{REQUEST_SENSITIVITIES, SimulatedDynPick};
+/// use fingertip_drivers::sensors::line::{LineFaults, SimulatedSerial};
+/// use std::io::{Read, Write};
+///
+/// let device = SimulatedDynPick::new(AxisCounts::uniform(24.9, 1664.0)?);
+/// let mut port = SimulatedSerial::new(device, LineFaults::default());
+/// port.write_all(&[REQUEST_SENSITIVITIES])?;
+/// let mut answer = String::new();
+/// port.read_to_string(&mut answer)?;
+/// assert_eq!(answer, "024.90,024.90,024.90,1664.0,1664.0,1664.0\r\n");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SimulatedDynPick {
     counts: AxisCounts,

@@ -17,6 +17,14 @@ pub const REQUEST_SENSITIVITIES: u8 = b'p';
 pub const REQUEST_ZERO: u8 = b'O';
 
 /// One reading of the six axes.
+///
+/// ```
+/// use fingertip_drivers::sensors::dynpick::Reading;
+///
+/// let reading = Reading::parse(b"7200020002000200020002001\r\n").unwrap();
+/// assert_eq!((reading.tick, reading.raw[0]), (7, Reading::ZERO));
+/// assert_eq!(reading.raw[5], Reading::ZERO + 1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// Number of the reading, 0 to 9 and round again.

@@ -9,6 +9,20 @@ use crate::{Sample, SourceError};
 
 /// Turns the bytes that a device sends into samples, one byte at a time, without I/O and without a
 /// clock.
+///
+/// ```
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
+/// use fingertip_drivers::sensors::line::LineDecoder;
+///
+/// // Byte by byte, as from an interrupt.
+/// let mut decoder = BotaDecoder::new();
+/// let mut samples = Vec::new();
+/// for byte in Frame::default().emit() {
+///     samples.extend(LineDecoder::<f64>::push(&mut decoder, byte));
+/// }
+/// assert_eq!(samples.len(), 1);
+/// assert_eq!(LineDecoder::<f64>::statistics(&decoder).frames, 1);
+/// ```
 pub trait LineDecoder<T: Real> {
     /// What the device can say is wrong with itself.
     type Fault: SourceError;

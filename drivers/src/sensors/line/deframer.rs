@@ -1,6 +1,21 @@
 //! Finds frames in a stream of bytes.
 
 /// How the frames of a device look: `LENGTH` bytes that are an `F`.
+///
+/// ```
+/// use fingertip_drivers::sensors::line::{Deframer, FrameFormat};
+///
+/// /// A header, a number, and the number inverted.
+/// const FORMAT: FrameFormat<u8, 3> = FrameFormat {
+///     may_begin: |start| start.first().is_none_or(|first| *first == 0x55),
+///     frame: |[_, number, check]| (*check == !*number).then_some(*number),
+/// };
+///
+/// let mut deframer = Deframer::new(FORMAT);
+/// let found: Vec<u8> =
+///     [1, 0x55, 7, !7, 0x55, 8, 8].into_iter().filter_map(|byte| deframer.push(byte)).collect();
+/// assert_eq!(found, [7]);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct FrameFormat<F, const LENGTH: usize> {
     /// Whether a frame can begin with these bytes (at most `LENGTH`): its header, as far as it is
@@ -13,6 +28,20 @@ pub struct FrameFormat<F, const LENGTH: usize> {
 
 /// How a line has behaved so far. What was lost on the way is not among it: only formats that number their
 /// frames let one count that, and their decoders say how many are missing.
+///
+/// ```
+/// use fingertip_drivers::sensors::bota_serial::{FORMAT, Frame};
+/// use fingertip_drivers::sensors::line::Deframer;
+///
+/// let mut damaged = Frame::default().emit();
+/// damaged[20] ^= 1;
+/// let mut deframer = Deframer::new(FORMAT);
+/// for byte in damaged.into_iter().chain(Frame::default().emit()) {
+///     deframer.push(byte);
+/// }
+/// let statistics = deframer.statistics();
+/// assert_eq!((statistics.frames, statistics.failed, statistics.skipped), (1, 1, 37));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LineStatistics {
@@ -30,6 +59,18 @@ pub struct LineStatistics {
 /// What looks like a header can stand inside a frame too, so a frame counts only if its checksum
 /// fits; if it does not, one byte is dropped and the search goes on behind it. So a damaged frame
 /// never takes a sound one with it that begins inside its bytes.
+///
+/// ```
+/// use fingertip_drivers::sensors::bota_serial::{FORMAT, Frame};
+/// use fingertip_drivers::sensors::line::Deframer;
+///
+/// // The end of one frame, and another.
+/// let frame = Frame { microseconds: 1000, ..Frame::default() };
+/// let bytes = [&frame.emit()[30..], &frame.emit()].concat();
+/// let mut deframer = Deframer::new(FORMAT);
+/// let found: Vec<_> = bytes.into_iter().filter_map(|byte| deframer.push(byte)).collect();
+/// assert_eq!((found, deframer.waiting()), (vec![frame], 0));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Deframer<F, const LENGTH: usize> {
     format: FrameFormat<F, LENGTH>,

@@ -13,6 +13,20 @@ use crate::{AsyncSource, Sample, Source};
 
 /// A sensor on any `embedded_io::Read`, blocking; polled, too, if the line can say whether bytes are
 /// there (`ReadReady`).
+///
+/// ```
+/// use fingertip_drivers::polled::NbSource;
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
+/// use fingertip_drivers::sensors::line::{EmbeddedLine, LineFaults, SimulatedLine};
+///
+/// // In place of the port of a microcontroller.
+/// let mut port = SimulatedLine::new(LineFaults::default());
+/// port.send(&Frame::default().emit());
+/// let mut sensor = EmbeddedLine::<_, f32, _>::new(port, BotaDecoder::new());
+/// assert!(sensor.poll_sample().is_ok());
+/// // Nothing more has come.
+/// assert!(matches!(sensor.poll_sample(), Err(nb::Error::WouldBlock)));
+/// ```
 #[derive(Debug)]
 pub struct EmbeddedLine<L, T, D> {
     line: L,
@@ -21,6 +35,19 @@ pub struct EmbeddedLine<L, T, D> {
 
 /// A sensor on any `embedded_io_async::Read`. No sample is lost if a call is dropped: what was read is
 /// kept, as long as the line keeps what it was asked for when its own call is dropped.
+///
+/// ```
+/// use fingertip_drivers::AsyncSource;
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
+/// use fingertip_drivers::sensors::line::{AsyncLine, LineFaults, SimulatedLine};
+/// # use fingertip_test_support::block_on;
+///
+/// let mut port = SimulatedLine::new(LineFaults::default());
+/// port.send(&Frame { components: [0.0, 0.0, -2.0, 0.0, 0.0, 0.0], ..Frame::default() }.emit());
+/// let mut sensor = AsyncLine::<_, f32, _>::new(port, BotaDecoder::new());
+/// assert_eq!(block_on(sensor.next_sample())?.unwrap().value.force().z, -2.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct AsyncLine<L, T, D> {
     line: L,

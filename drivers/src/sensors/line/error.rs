@@ -8,6 +8,18 @@ use crate::{SourceError, SourceErrorKind};
 
 /// Why a sensor on a line has no wrench to give. `E` is the error of the transport, `F` the fault
 /// that the device reports.
+///
+/// ```
+/// use fingertip_drivers::sensors::bota_serial::BotaDecoder;
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::{Source, SourceError, SourceErrorKind};
+///
+/// // Bytes come, as from a port at a wrong baud rate, and none is a frame.
+/// let mut sensor = LineSensor::<_, f64, _>::new(std::io::repeat(0xF8), BotaDecoder::new());
+/// let error = sensor.next_sample().unwrap_err();
+/// assert!(error.to_string().ends_with("is this the sensor, and the line at its baud rate?"));
+/// assert_eq!(error.kind(), SourceErrorKind::Corrupt);
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LineError<E, F> {

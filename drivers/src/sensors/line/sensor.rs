@@ -15,6 +15,20 @@ use crate::{Sample, Source};
 ///
 /// It blocks as a [`Source`]. As an [`NbSource`] it takes the timeout of the line (`TimedOut` or
 /// `WouldBlock`) for "nothing yet": open the line as non-blocking, or with a timeout of zero.
+///
+/// In place of an open port, what was read from one:
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, Frame};
+/// use fingertip_drivers::sensors::line::LineSensor;
+///
+/// let bytes = Frame { components: [0.0, 0.0, -2.0, 0.0, 0.0, 0.0], ..Frame::default() }.emit();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], BotaDecoder::new());
+/// assert_eq!(sensor.next_sample()?.unwrap().value.force().z, -2.0);
+/// assert!(sensor.next_sample()?.is_none());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct LineSensor<L, T, D> {
     line: L,

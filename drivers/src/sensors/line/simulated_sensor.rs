@@ -8,6 +8,19 @@ use std::io::{self, Read, Write};
 use super::simulator::{LineFaults, SimulatedLine};
 
 /// What a sensor is asked for.
+///
+/// ```
+/// use fingertip_drivers::sensors::line::{LineFaults, SerialDevice, SerialRequest, SimulatedSerial};
+/// use std::io::Write;
+///
+/// // It streams from an S on.
+/// let hears = |heard: &[u8]| (heard.first() == Some(&b'S')).then_some((SerialRequest::Stream, 1));
+/// let mut port = SimulatedSerial::new(SerialDevice::new(false, hears, |_| vec![]), LineFaults::default());
+/// assert!(!port.is_streaming());
+/// port.write_all(b"S")?;
+/// assert!(port.is_streaming());
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SerialRequest {
     /// One reading.
@@ -33,6 +46,20 @@ pub enum SerialRequest {
 }
 
 /// What a reading is made of.
+///
+/// ```
+/// use fingertip_drivers::sensors::line::{LineFaults, SerialDevice, SerialSample, SimulatedSerial};
+/// use std::io::Read;
+///
+/// let speaks = |sample: &SerialSample| format!("{} {}\n", sample.number, sample.load[2]).into_bytes();
+/// let mut port = SimulatedSerial::new(SerialDevice::new(true, |_| None, speaks), LineFaults::default());
+/// port.sample([0.0, 0.0, -2.0, 0.0, 0.0, 0.0]);
+/// port.sample([0.0, 0.0, -2.5, 0.0, 0.0, 0.0]);
+/// let mut said = String::new();
+/// port.read_to_string(&mut said)?;
+/// assert_eq!(said, "1 -2\n2 -2.5\n");
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialSample {
     /// How many samples were taken, this one included.
@@ -44,6 +71,26 @@ pub struct SerialSample {
 }
 
 /// What one kind of sensor says on a serial line, and understands.
+///
+/// A sensor of one's own, which says its force in grams when it hears a question mark:
+///
+/// ```
+/// use fingertip_drivers::sensors::line::{LineFaults, SerialDevice, SerialRequest, SimulatedSerial};
+/// use std::io::{Read, Write};
+///
+/// let scales = SerialDevice::new(
+///     false,
+///     |heard| (heard.first() == Some(&b'?')).then_some((SerialRequest::Single, 1)),
+///     |sample| format!("{:.0} g\n", sample.load[2] / -9.81e-3).into_bytes(),
+/// );
+/// let mut port = SimulatedSerial::new(scales, LineFaults::default());
+/// port.write_all(b"?")?;
+/// port.sample([0.0, 0.0, -0.981, 0.0, 0.0, 0.0]);
+/// let mut said = String::new();
+/// port.read_to_string(&mut said)?;
+/// assert_eq!(said, "100 g\n");
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct SerialDevice {
     streams: bool,

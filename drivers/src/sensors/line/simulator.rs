@@ -7,6 +7,29 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 /// What the line does to frames: probabilities between 0 and 1.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::bota_serial::{BotaDecoder, SimulatedBota};
+/// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
+///
+/// // A bit of one frame in ten is flipped: those frames are missing, and no number is wrong.
+/// let faults = LineFaults { bit_flip: 0.1, ..LineFaults::default() };
+/// let port = SimulatedSerial::new(SimulatedBota::new(1000.0), faults);
+/// let mut sensor = LineSensor::<_, f64, _>::new(port, BotaDecoder::new());
+/// let mut given = 0;
+/// for _ in 0..200 {
+///     sensor.line_mut().sample([0.0, 0.0, -2.0, 0.0, 0.0, 0.0]);
+/// }
+/// while let Some(sample) = sensor.next_sample()? {
+///     assert_eq!(sample.value.force().z, -2.0);
+///     given += 1;
+/// }
+/// let line = sensor.line_mut().line();
+/// assert!(line.damaged() > 0);
+/// assert_eq!(given, line.sent() - line.damaged());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LineFaults {
     /// One bit of the frame is flipped.
@@ -22,6 +45,18 @@ pub struct LineFaults {
 }
 
 /// A line on which a simulated sensor sends: the other end is read.
+///
+/// ```
+/// use fingertip_drivers::sensors::line::{LineFaults, SimulatedLine};
+/// use std::io::Read;
+///
+/// let mut line = SimulatedLine::new(LineFaults { lost_frame: 1.0, ..LineFaults::default() });
+/// assert!(!line.send_seen(b"frame"));
+/// let mut came = Vec::new();
+/// line.read_to_end(&mut came)?;
+/// assert_eq!((came.len(), line.sent(), line.damaged()), (0, 1, 1));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SimulatedLine {
     faults: LineFaults,

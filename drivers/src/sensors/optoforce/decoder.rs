@@ -9,6 +9,20 @@ use crate::sensors::line::{Deframer, LineDecoder, LineStatistics};
 use crate::{Sample, SourceError, SourceErrorKind};
 
 /// What the sensor says is wrong with a reading.
+///
+/// ```
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::sensors::optoforce::{OptoForceDecoder, Reading};
+/// use fingertip_drivers::{Source, SourceError, SourceErrorKind};
+///
+/// let bytes = Reading { status: 1 << 9, ..Reading::default() }.emit();
+/// let decoder = OptoForceDecoder::new(AxisCounts::uniform(80.0, 1800.0)?);
+/// let error = LineSensor::<_, f64, _>::new(&bytes[..], decoder).next_sample().unwrap_err();
+/// assert_eq!(error.to_string(), "the sensor is overloaded (status 0x0200: Fx at bit 9 to Tz at bit 4)");
+/// assert_eq!(error.kind(), SourceErrorKind::Overload);
+/// # Ok::<(), fingertip_drivers::sensors::BadAxisCounts>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum OptoForceFault {
@@ -37,6 +51,24 @@ impl SourceError for OptoForceFault {
 
 /// Decodes what the sensor sends. Samples have no time: the sensor numbers them, but at a rate that
 /// it does not say.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::sensors::optoforce::{OptoForceDecoder, Reading};
+///
+/// // In place of the port: readings 7 and 10.
+/// let reading = |count| Reading { count, status: 0, counts: [0, 0, -160, 0, 0, 0] };
+/// let bytes = [reading(7).emit(), reading(10).emit()].concat();
+/// let decoder = OptoForceDecoder::new(AxisCounts::uniform(80.0, 1800.0)?);
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], decoder);
+/// while let Some(sample) = sensor.next_sample()? {
+///     assert!((sample.value.force().z + 2.0).abs() < 1e-12);
+/// }
+/// assert_eq!(sensor.decoder().missing(), 2);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct OptoForceDecoder {
     counts: AxisCounts,

@@ -17,6 +17,17 @@ fn sum(bytes: &[u8]) -> u16 {
 }
 
 /// One reading of the six axes.
+///
+/// ```
+/// use fingertip_drivers::sensors::optoforce::Reading;
+///
+/// let reading = Reading { count: 7, status: 0, counts: [0, 0, -160, 0, 0, 0] };
+/// let mut bytes = reading.emit();
+/// assert_eq!((&bytes[..4], Reading::parse(&bytes)), (&[0xAA, 7, 8, 16][..], Some(reading)));
+/// // Its sum tells of a damaged byte.
+/// bytes[12] ^= 1;
+/// assert_eq!(Reading::parse(&bytes), None);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// Number of the reading; it wraps around.
@@ -63,6 +74,14 @@ impl Reading {
 }
 
 /// How many readings a second the sensor sends.
+///
+/// ```
+/// use fingertip_drivers::sensors::optoforce::{Configuration, Filter, Rate};
+///
+/// // The byte is the milliseconds between readings.
+/// let slow = Configuration { rate: Rate::Hz10, filter: Filter::None, zero: false };
+/// assert_eq!(slow.emit()[4], 100);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Rate {
@@ -81,6 +100,13 @@ pub enum Rate {
 }
 
 /// Corner of the low-pass filter in the sensor.
+///
+/// ```
+/// use fingertip_drivers::sensors::optoforce::{Configuration, Filter, Rate};
+///
+/// let smooth = Configuration { rate: Rate::Hz100, filter: Filter::Hz15, zero: false };
+/// assert_eq!(smooth.emit()[5], 4);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Filter {
@@ -128,6 +154,14 @@ fn value<V: Copy>(table: &[(V, u8)], code: u8) -> Option<V> {
 }
 
 /// What a client sets.
+///
+/// ```
+/// use fingertip_drivers::sensors::optoforce::{Configuration, Filter, Rate};
+///
+/// let configuration = Configuration { rate: Rate::Hz1000, filter: Filter::Hz150, zero: true };
+/// assert_eq!(configuration.emit(), [0xAA, 0, 50, 3, 1, 2, 255, 1, 0xE1]);
+/// assert_eq!(Configuration::parse(&configuration.emit()), Some(configuration));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Configuration {
     /// Readings a second.

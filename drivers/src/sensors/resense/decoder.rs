@@ -8,6 +8,18 @@ use crate::sensors::line::{LineDecoder, LineStatistics, finite_wrench};
 use crate::{Sample, SourceError, SourceErrorKind};
 
 /// What a reading can be: what is beyond it is taken for bytes that are out of step.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::sensors::resense::{Limits, Reading, ResenseDecoder};
+///
+/// // A sensor for 100 N: 200 N can be no reading.
+/// let limits = Limits { force: 130.0, torque: 3.0, temperature: [0.0, 60.0], temperature_step: 0.5 };
+/// let bytes = Reading { force: [0.0, 0.0, -200.0], temperature: 25.0, ..Reading::default() }.emit();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], ResenseDecoder::new(limits));
+/// assert!(sensor.next_sample().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Greatest magnitude of a force \[N\]: the sensor's range with its reserve.
@@ -21,6 +33,21 @@ pub struct Limits {
 }
 
 /// Why there is no wrench.
+///
+/// A byte was lost on the line:
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::sensors::resense::{Limits, Reading, ResenseDecoder};
+///
+/// let limits = Limits { force: 130.0, torque: 3.0, temperature: [0.0, 60.0], temperature_step: 0.5 };
+/// let reading = Reading { force: [0.1, 0.2, -2.0], temperature: 25.0, ..Reading::default() }.emit();
+/// let bytes = [&reading[1..], &reading[..]].concat();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], ResenseDecoder::new(limits));
+/// let told = "a reading is impossible: the line is out of step; restart when it has been silent";
+/// assert_eq!(sensor.next_sample().unwrap_err().to_string(), told);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ResenseFault {
@@ -38,6 +65,23 @@ impl SourceError for ResenseFault {
 
 /// Decodes what the sensor sends. Samples have no time, and whole readings that are lost, repeated or swapped on
 /// the way leave no trace: see the [module](super).
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::sensors::resense::{Limits, Reading, ResenseDecoder};
+///
+/// let limits = Limits { force: 130.0, torque: 3.0, temperature: [0.0, 60.0], temperature_step: 0.5 };
+/// let reading = |fz| Reading { force: [0.0, 0.0, fz], temperature: 25.0, ..Reading::default() }.emit();
+/// // No more than 20 N and 0.5 N·m from one reading to the next: one that jumps is not believed.
+/// let decoder = ResenseDecoder::new(limits).stepping_at_most(20.0, 0.5);
+/// let bytes = [reading(-2.0), reading(-3.0), reading(-90.0)].concat();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], decoder);
+/// assert_eq!(sensor.next_sample()?.unwrap().value.force().z, -2.0);
+/// assert_eq!(sensor.next_sample()?.unwrap().value.force().z, -3.0);
+/// assert!(sensor.next_sample().is_err());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ResenseDecoder {
     limits: Limits,

@@ -6,6 +6,23 @@ use super::wire::Reading;
 use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
 
 /// A sensor that streams, or answers requests, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
+///
+/// ```
+/// use fingertip_drivers::sensors::line::{LineFaults, SimulatedSerial};
+/// use fingertip_drivers::sensors::resense::{Reading, SimulatedResense};
+/// use std::io::{Read, Write};
+///
+/// // A sensor that is set to answer a question mark.
+/// let device = SimulatedResense::asked_by(b"?".to_vec());
+/// let mut port = SimulatedSerial::new(device, LineFaults::default());
+/// port.write_all(b"?")?;
+/// port.sample([0.0, 0.0, -2.0, 0.0, 0.01, 0.0]);
+/// let mut bytes = [0; Reading::LENGTH];
+/// port.read_exact(&mut bytes)?;
+/// let reading = Reading::parse(&bytes);
+/// assert_eq!((reading.force[2], reading.torque_millinewton_metres[1]), (-2.0, 10.0));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SimulatedResense {
     request: Vec<u8>,

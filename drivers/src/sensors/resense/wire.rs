@@ -1,6 +1,14 @@
 //! The bytes of a reading, little-endian: seven `f32`.
 
 /// One reading.
+///
+/// ```
+/// use fingertip_drivers::sensors::resense::Reading;
+///
+/// let reading = Reading { force: [0.0, 0.0, -2.0], temperature: 25.0, ..Reading::default() };
+/// assert_eq!(reading.emit()[8..12], (-2.0_f32).to_le_bytes());
+/// assert_eq!(Reading::parse(&reading.emit()), reading);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Fx, Fy, Fz \[N\].

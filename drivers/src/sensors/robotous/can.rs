@@ -8,6 +8,22 @@ use super::wire::Reading;
 use crate::sensors::axis_counts::AxisCounts;
 
 /// What came over CAN so far.
+///
+/// ```
+/// use embedded_can::{Frame, StandardId};
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::robotous::{CanAssembler, Reading, SimulatedFrame};
+///
+/// let [first, second] = [1, 2].map(|number| StandardId::new(number).unwrap());
+/// let mut assembler = CanAssembler::new(AxisCounts::uniform(50.0, 2000.0)?, first, second);
+/// let bytes = Reading::default().emit();
+/// // The second half of one reading is dropped; the next one is whole.
+/// for (id, half) in [(first, &bytes[..8]), (first, &bytes[..8]), (second, &bytes[8..])] {
+///     assembler.push(&SimulatedFrame::new(id, half).unwrap());
+/// }
+/// assert_eq!((assembler.statistics().readings, assembler.statistics().halves), (1, 1));
+/// # Ok::<(), fingertip_drivers::sensors::BadAxisCounts>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CanStatistics {
@@ -27,6 +43,22 @@ pub struct CanStatistics {
 /// half without its other half is dropped and counted. If the second frame of one reading and the
 /// first of the next are both dropped, two halves that do not belong together are joined: the sensor sends
 /// nothing by which to tell. Give the receive buffer room for an even number of frames.
+///
+/// ```
+/// use embedded_can::{Frame, StandardId};
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::robotous::{CanAssembler, Reading, SimulatedFrame};
+///
+/// let [first, second] = [1, 2].map(|number| StandardId::new(number).unwrap());
+/// let mut assembler = CanAssembler::new(AxisCounts::uniform(50.0, 2000.0)?, first, second);
+/// let bytes = Reading { counts: [0, 0, -100, 0, 0, 0], ..Reading::default() }.emit();
+/// let frames = [(first, &bytes[..8]), (second, &bytes[8..])]
+///     .map(|(id, half)| SimulatedFrame::new(id, half).unwrap());
+/// assert!(assembler.push_wrench::<f64>(&frames[0]).is_none());
+/// let wrench = assembler.push_wrench::<f64>(&frames[1]).unwrap()?;
+/// assert!((wrench.force().z + 2.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct CanAssembler {
     counts: AxisCounts,

@@ -14,6 +14,27 @@ use crate::polled::NbSource;
 use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why there is no sample.
+///
+/// ```
+/// use embedded_can::StandardId;
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::robotous::{
+///     CanAssembler, CanSensor, CanSensorError, Request, Silent, SimulatedCan,
+/// };
+///
+/// let [first, second, request] = [1, 2, 0x64].map(|number| StandardId::new(number).unwrap());
+/// let mut bus = SimulatedCan::new(first, second, request, |_| [0; 6]);
+/// bus.overload = 0b100;
+/// let assembler = CanAssembler::new(AxisCounts::uniform(50.0, 2000.0)?, first, second);
+/// let mut sensor = CanSensor::<_, f64>::new(bus, assembler, request);
+/// // It was not asked to send.
+/// assert_eq!(sensor.next_sample(), Err(CanSensorError::Bus(Silent)));
+/// sensor.request(Request::Single)?;
+/// let told = sensor.next_sample().unwrap_err().to_string();
+/// assert_eq!(told, "the sensor is overloaded (overload byte 0x04)");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CanSensorError<E> {

@@ -9,6 +9,19 @@ use crate::sensors::line::{Deframer, LineDecoder, LineStatistics};
 use crate::{Sample, SourceError, SourceErrorKind};
 
 /// What the sensor says is wrong with a reading.
+///
+/// ```
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::sensors::robotous::{Reading, RobotousDecoder};
+/// use fingertip_drivers::{Source, SourceError, SourceErrorKind};
+///
+/// let bytes = Reading { overload: 0b100, ..Reading::default() }.emit_serial();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], RobotousDecoder::rft60()?);
+/// let error = sensor.next_sample().unwrap_err();
+/// assert_eq!(error.to_string(), "the sensor is overloaded (overload byte 0x04)");
+/// assert_eq!(error.kind(), SourceErrorKind::Overload);
+/// # Ok::<(), fingertip_drivers::sensors::BadAxisCounts>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum RobotousFault {
@@ -31,6 +44,19 @@ impl SourceError for RobotousFault {
 ///
 /// The checksum is a plain sum: it notices every single damaged byte, but one of 256 frames with
 /// several.
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::line::LineSensor;
+/// use fingertip_drivers::sensors::robotous::{Reading, RobotousDecoder};
+///
+/// // In place of the port: noise and a reading.
+/// let reading = Reading { streamed: true, counts: [0, 0, -100, 0, 0, 0], overload: 0 };
+/// let bytes = [&[0x55, 3, 7][..], &reading.emit_serial()].concat();
+/// let mut sensor = LineSensor::<_, f64, _>::new(&bytes[..], RobotousDecoder::rft60()?);
+/// assert!((sensor.next_sample()?.unwrap().value.force().z + 2.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct RobotousDecoder {
     counts: AxisCounts,

@@ -10,6 +10,16 @@ use rand_pcg::Pcg64Mcg;
 use super::wire::{Reading, Request};
 
 /// A frame on the simulated bus.
+///
+/// ```
+/// use embedded_can::{Frame, StandardId};
+/// use fingertip_drivers::sensors::robotous::SimulatedFrame;
+///
+/// let id = StandardId::new(0x64).unwrap();
+/// let frame = SimulatedFrame::new(id, &[1, 2, 3]).unwrap();
+/// assert_eq!((frame.dlc(), frame.data(), frame.is_extended()), (3, &[1, 2, 3][..], false));
+/// assert_eq!(SimulatedFrame::new(id, &[0; 9]), None);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SimulatedFrame {
     id: Id,
@@ -47,6 +57,15 @@ impl Frame for SimulatedFrame {
 }
 
 /// Nothing is under way on the bus and nothing will be: a blocking receive would never return.
+///
+/// ```
+/// use embedded_can::{StandardId, blocking::Can};
+/// use fingertip_drivers::sensors::robotous::{Silent, SimulatedCan};
+///
+/// let [first, second, request] = [1, 2, 0x64].map(|number| StandardId::new(number).unwrap());
+/// let mut bus = SimulatedCan::new(first, second, request, |_| [0; 6]);
+/// assert_eq!(bus.receive(), Err(Silent));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Silent;
 
@@ -58,6 +77,27 @@ impl embedded_can::Error for Silent {
 
 /// The bus, with a sensor on it that samples as often as it is listened to. `load` gives the counts of each sample
 /// by its number.
+///
+/// A receiver that drops one frame in four:
+///
+/// ```
+/// use embedded_can::StandardId;
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::robotous::{CanAssembler, CanSensor, Request, SimulatedCan};
+///
+/// let [first, second, request] = [1, 2, 0x64].map(|number| StandardId::new(number).unwrap());
+/// let bus = SimulatedCan::new(first, second, request, |number| [number as i16; 6]).losing(0.25, 1);
+/// let assembler = CanAssembler::new(AxisCounts::uniform(50.0, 2000.0)?, first, second);
+/// let mut sensor = CanSensor::<_, f64>::new(bus, assembler, request);
+/// sensor.request(Request::Stream)?;
+/// for _ in 0..100 {
+///     sensor.next_sample()?;
+/// }
+/// assert!(sensor.statistics().halves > 0);
+/// assert!(sensor.bus_mut().lost() >= sensor.statistics().halves);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct SimulatedCan<L> {
     ids: [Id; 3],

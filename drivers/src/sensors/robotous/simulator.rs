@@ -7,6 +7,24 @@ use crate::sensors::axis_counts::AxisCounts;
 use crate::sensors::line::{SerialDevice, SerialRequest, SerialSample};
 
 /// A sensor that waits for requests, for a [`SimulatedSerial`](crate::sensors::line::SimulatedSerial).
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::AxisCounts;
+/// use fingertip_drivers::sensors::line::{LineFaults, LineSensor, SimulatedSerial};
+/// use fingertip_drivers::sensors::robotous::{Request, RobotousDecoder, SimulatedRft};
+/// use std::io::Write;
+///
+/// let counts = AxisCounts::uniform(50.0, 2000.0)?;
+/// let mut device = SimulatedRft::new(counts);
+/// device.overload = 1;
+/// let port = SimulatedSerial::new(device, LineFaults::default());
+/// let mut sensor = LineSensor::<_, f64, _>::new(port, RobotousDecoder::new(counts));
+/// sensor.line_mut().write_all(&Request::Single.emit_serial())?;
+/// sensor.line_mut().sample([0.0, 0.0, -300.0, 0.0, 0.0, 0.0]);
+/// assert!(sensor.next_sample().is_err());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SimulatedRft {
     counts: AxisCounts,

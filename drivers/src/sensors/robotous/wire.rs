@@ -15,6 +15,15 @@ const START: u8 = 0x55;
 const END: u8 = 0xAA;
 
 /// One reading of the six axes.
+///
+/// ```
+/// use fingertip_drivers::sensors::robotous::Reading;
+///
+/// let reading = Reading { streamed: true, counts: [0, 0, -100, 0, 0, 0], overload: 0 };
+/// assert_eq!(Reading::parse(&reading.emit()), Some(reading));
+/// let frame = reading.emit_serial();
+/// assert_eq!((frame[0], frame[1], frame[18]), (0x55, 0x0B, 0xAA));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// Whether it answers [`Request::Stream`] (or else [`Request::Single`]).
@@ -79,6 +88,13 @@ fn sum(data: &[u8]) -> u8 {
 }
 
 /// What a client asks of the sensor.
+///
+/// ```
+/// use fingertip_drivers::sensors::robotous::Request;
+///
+/// assert_eq!(Request::Stream.emit_serial(), [0x55, 0x0B, 0, 0, 0, 0, 0, 0, 0, 0x0B, 0xAA]);
+/// assert_eq!(Request::parse(&[0x11, 1, 0, 0, 0, 0, 0, 0]), Some(Request::Bias { set: true }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Request {

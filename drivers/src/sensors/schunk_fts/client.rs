@@ -16,6 +16,20 @@ use crate::sensors::datagram_socket::DatagramSocket;
 use crate::{Sample, Source, SourceError, SourceErrorKind};
 
 /// Why a client has no wrench to give.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_drivers::sensors::schunk_fts::{Command, FtsClient, FtsClientError};
+/// use fingertip_drivers::{SourceError, SourceErrorKind};
+///
+/// // Nobody serves there.
+/// let nobody = std::net::TcpListener::bind("127.0.0.1:0")?.local_addr()?;
+/// let error = FtsClient::connect(nobody, "127.0.0.1:0", Duration::from_secs(1)).unwrap_err();
+/// assert_eq!(error.kind(), SourceErrorKind::Transport);
+/// let refused = FtsClientError::Refused { command: Command::Tare, error: 3 };
+/// assert_eq!(refused.to_string(), "the sensor refuses Tare with error 3");
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FtsClientError {
@@ -69,6 +83,25 @@ const LARGEST: usize = 7 + 16 * FtsSample::LENGTH;
 
 /// Streams wrenches from a sensor. Never sets its zero unless [`tare`](Self::tare) is called; tells it to stop
 /// when dropped.
+///
+/// ```
+/// use core::time::Duration;
+/// use fingertip_drivers::Source;
+/// use fingertip_drivers::sensors::FaultPlan;
+/// use fingertip_drivers::sensors::schunk_fts::{FtsClient, FtsServer, SimulatedFts};
+///
+/// // In place of the sensor: one on this machine that is pressed with 2 N.
+/// let port = std::net::UdpSocket::bind("127.0.0.1:0")?.local_addr()?.port();
+/// let (sensor, period) = (SimulatedFts::new(FaultPlan::default()), Duration::from_millis(1));
+/// let server = FtsServer::start("127.0.0.1:0", port, sensor, period, |_| [0.0, 0.0, -2.0, 0.0, 0.0, 0.0])?;
+///
+/// let wait = Duration::from_secs(2);
+/// let mut client = FtsClient::connect(server.address(), ("127.0.0.1", port), wait)?.timed_by(1000.0);
+/// let sample = client.next_sample()?.unwrap();
+/// let force: f64 = sample.value.force().z;
+/// assert_eq!(force, -2.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct FtsClient {
     commands: TcpStream,

@@ -9,6 +9,19 @@ use crate::sensors::{LinkStatistics, SequenceWatch};
 use crate::{SourceError, SourceErrorKind};
 
 /// What the sensor says is wrong with a sample.
+///
+/// ```
+/// use fingertip_drivers::sensors::schunk_fts::{FtsReceiver, FtsSample, Packet, emit_packet};
+///
+/// let mut datagram = [0; 7 + FtsSample::LENGTH];
+/// let invalid = FtsSample { status: FtsSample::READY | FtsSample::INVALID, ..FtsSample::default() };
+/// emit_packet(0, 0, &[invalid], &mut datagram);
+/// let packet = Packet::new_checked(&datagram)?;
+/// let fault = FtsReceiver::default().accept::<f64>(&packet).unwrap().next().unwrap().unwrap_err();
+/// let told = "the sensor gives no valid numbers (status 0x00000003, where 1 is ready and nothing else)";
+/// assert_eq!(fault.to_string(), told);
+/// # Ok::<(), fingertip_drivers::sensors::schunk_fts::FtsWireError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the sensor gives no valid numbers (status {status:#010x}, where 1 is ready and nothing else)")]
 pub struct FtsFault {
@@ -23,6 +36,27 @@ impl SourceError for FtsFault {
 }
 
 /// Takes datagrams in the order in which they come and gives the wrenches of those that are news.
+///
+/// ```
+/// use fingertip_drivers::sensors::schunk_fts::{FtsReceiver, FtsSample, Packet, emit_packet};
+///
+/// let (mut receiver, mut given) = (FtsReceiver::default(), 0);
+/// // Datagram 3 is lost, and 2 comes twice.
+/// for counter in [1, 2, 2, 4] {
+///     let mut datagram = [0; 7 + FtsSample::LENGTH];
+///     emit_packet(
+///         counter,
+///         0,
+///         &[FtsSample { status: FtsSample::READY, ..FtsSample::default() }],
+///         &mut datagram,
+///     );
+///     given +=
+///         receiver.accept::<f64>(&Packet::new_checked(&datagram)?).map_or(0, |wrenches| wrenches.len());
+/// }
+/// assert_eq!(given, 3);
+/// assert_eq!((receiver.statistics().lost, receiver.statistics().duplicates), (1, 1));
+/// # Ok::<(), fingertip_drivers::sensors::schunk_fts::FtsWireError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FtsReceiver {
     watch: SequenceWatch,

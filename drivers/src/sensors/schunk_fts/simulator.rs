@@ -16,6 +16,22 @@ use crate::sensors::{Pace, Served, SimulatedSensor};
 pub type SimulatedFts = SimulatedSensor<Fts>;
 
 /// What is an FTS's own.
+///
+/// ```
+/// use fingertip_drivers::sensors::FaultPlan;
+/// use fingertip_drivers::sensors::schunk_fts::{Command, Packet, SimulatedFts};
+///
+/// let mut sensor = SimulatedFts::new(FaultPlan::default());
+/// sensor.sample([0.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+/// // Its zero is what it felt then.
+/// sensor.command(&Command::Tare.emit(1)).unwrap();
+/// sensor.command(&Command::StartUdp.emit(2)).unwrap();
+/// sensor.sample([0.0, 0.0, -3.0, 0.0, 0.0, 0.0]);
+/// let datagram = sensor.datagram().unwrap();
+/// let sample = Packet::new_checked(&datagram)?.samples().next().unwrap();
+/// assert_eq!(sample.components[2], -2.0);
+/// # Ok::<(), fingertip_drivers::sensors::schunk_fts::FtsWireError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Fts {
     counter: u16,

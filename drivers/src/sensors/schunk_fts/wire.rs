@@ -19,6 +19,15 @@ pub const TCP_PORT: u16 = 82;
 const HEADER: [u8; 2] = [0xFF, 0xFF];
 
 /// Bytes that are no message.
+///
+/// ```
+/// use fingertip_drivers::sensors::schunk_fts::{Command, Packet};
+///
+/// let told = Packet::new_checked(&[0xFF, 0xFF, 0, 0, 29, 0, 1]).unwrap_err().to_string();
+/// assert_eq!(told, "the message says 29 bytes and has 1");
+/// let told = Command::parse(&[0xFF, 0xFF, 0, 0, 1, 0, 0x77]).unwrap_err().to_string();
+/// assert_eq!(told, "0x77 is not a command");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum FtsWireError {
@@ -68,6 +77,14 @@ fn unframed(bytes: &[u8]) -> Result<(u16, &[u8]), FtsWireError> {
 }
 
 /// One sample of the sensor.
+///
+/// ```
+/// use fingertip_drivers::sensors::schunk_fts::FtsSample;
+///
+/// let sample = FtsSample { status: FtsSample::READY, components: [0.0, 0.0, -2.0, 0.0, 0.0, 0.0] };
+/// assert_eq!(sample.emit()[12..16], (-2.0_f32).to_le_bytes());
+/// assert_eq!(FtsSample::parse(&sample.emit()), sample);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FtsSample {
     /// Status bits.
@@ -106,6 +123,17 @@ impl FtsSample {
 }
 
 /// A datagram of samples over its bytes, without a copy.
+///
+/// ```
+/// use fingertip_drivers::sensors::schunk_fts::{FtsSample, Packet, emit_packet};
+///
+/// // Two samples in a datagram.
+/// let mut buffer = [0; 128];
+/// let length = emit_packet(7, 0, &[FtsSample::default(); 2], &mut buffer).unwrap();
+/// let packet = Packet::new_checked(&buffer[..length])?;
+/// assert_eq!((packet.counter(), packet.samples().len()), (7, 2));
+/// # Ok::<(), fingertip_drivers::sensors::schunk_fts::FtsWireError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Packet<'a> {
     counter: u16,
@@ -163,6 +191,13 @@ pub fn emit_packet(counter: u16, id: u8, samples: &[FtsSample], buffer: &mut [u8
 }
 
 /// What a client asks of the sensor.
+///
+/// ```
+/// use fingertip_drivers::sensors::schunk_fts::Command;
+///
+/// assert_eq!(Command::StartUdp.emit(5), [0xFF, 0xFF, 5, 0, 1, 0, 0x40]);
+/// assert_eq!(Command::parse(&Command::Tare.emit(6)), Ok((6, Command::Tare)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Command {
@@ -218,6 +253,14 @@ impl Command {
 }
 
 /// What the sensor answers to a command.
+///
+/// ```
+/// use fingertip_drivers::sensors::schunk_fts::{Command, CommandAnswer};
+///
+/// let (counter, answer) = CommandAnswer::parse(&[0xFF, 0xFF, 6, 0, 2, 0, 0x12, 0])?;
+/// assert_eq!((counter, answer), (6, CommandAnswer { command: Command::Tare, error: 0 }));
+/// # Ok::<(), fingertip_drivers::sensors::schunk_fts::FtsWireError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CommandAnswer {
     /// The command.

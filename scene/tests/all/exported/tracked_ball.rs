@@ -123,7 +123,8 @@ pub fn sighting<Reading, Verdict>(
 /// # Errors
 /// Never for the numbers below.
 pub fn contact_events() -> Result<contact::ContactEvents<f64>, BadTip> {
-    Ok(contact::ContactEvents::new(0.005, 0.04, 1000000.0)?)
+    let events = contact::ContactEvents::new(0.005, 0.04, 1000000.0)?;
+    Ok(events.with_longest_impact(0.05)?)
 }
 
 /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
