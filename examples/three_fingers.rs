@@ -4,8 +4,8 @@
 
 use fingertip::friction::SlipVerdict;
 use fingertip::hand::{
-    FingerLimits, FingerSample, Grasp, GraspContact, Hand, HandController, HandSettings, HandState,
-    ObjectWeight, UncertainWrench,
+    FingerLimits, FingerSample, FingerState, Grasp, GraspContact, Hand, HandController, HandLoad,
+    HandSettings, HandState, ObjectWeight, UncertainWrench,
 };
 use fingertip::wrench::{ContactForce, Wrench};
 use nalgebra::{Matrix6, Vector3};
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
             weight.observe(&UncertainWrench { wrench: load, covariance: noise }, &gravity);
         }
         // What the fingers feel: about what they were told to, with a third of the weight each.
-        let mut fingers = [None; 3];
+        let mut fingers = [FingerState::Free; 3];
         let present = hand.present();
         for (finger, (index, (contact, normal))) in
             fingers.iter_mut().zip(contacts.iter().zip(present).enumerate())
@@ -48,9 +48,9 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
             let force = ContactForce::new(normal, gravity * (mass * share / 3.0), 0.0);
             let slips = index == 1 && sample == 300;
             let slip = if slips { SlipVerdict::Slipping } else { SlipVerdict::Holding };
-            *finger = Some(FingerSample { contact: *contact, force, slip });
+            *finger = FingerSample { contact: *contact, force, slip }.into();
         }
-        let command = hand.command(&fingers, &load, STEP);
+        let command = hand.command(&fingers, &HandLoad::FromFingers, STEP);
         if sample % 100 == 99 || (299..303).contains(&sample) {
             let [a, b, c] = command.normal;
             let holding = matches!(command.state, HandState::Holding);

@@ -7,8 +7,12 @@ mod builder;
 #[cfg(all(feature = "batch", feature = "friction"))]
 mod columns;
 mod error;
+#[cfg(feature = "hand")]
+mod finger;
 mod pipeline;
 pub mod prelude;
+#[cfg(feature = "friction")]
+mod several;
 mod stage;
 mod step;
 #[cfg(feature = "friction")]
@@ -29,6 +33,8 @@ pub use batch::Touches;
 pub use builder::FingertipBuilder;
 pub use error::Error;
 pub use pipeline::{Fingertip, Touch};
+#[cfg(feature = "friction")]
+pub use several::Fingertips;
 pub use stage::{Absent, GripStage, Present, SlipStage};
 pub use step::Step;
 #[cfg(feature = "friction")]

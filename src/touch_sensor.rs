@@ -74,3 +74,13 @@ where
         self.detector_mut().start_anew();
     }
 }
+
+impl<T: Real, S: TouchSensor<T> + ?Sized> TouchSensor<T> for &mut S {
+    fn feel(&mut self, wrench: Wrench<T>, step: Step<T>) -> AnyTouch<T> {
+        (**self).feel(wrench, step)
+    }
+
+    fn start_anew(&mut self) {
+        (**self).start_anew();
+    }
+}

@@ -2,11 +2,10 @@
 
 use core::marker::PhantomData;
 
-use fingertip_friction::{Coulomb, SoftFingerLimit, UncertainCoulomb};
 use fingertip_wrench::{ContactForce, ContactFrame, Frame, Real, RigidTransform, Wrench};
 use nalgebra::{Matrix6x4, Vector3, Vector4};
 
-use crate::BadContact;
+use crate::{BadContact, ContactFriction};
 
 /// The frame in which the fingertips of a hand are told: that of the palm, or of the object. The default of every
 /// type of this crate that names a frame.
@@ -42,79 +41,38 @@ impl Frame for Hand {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GraspContact<T: Real, F: Frame = Hand> {
     frame: ContactFrame<T>,
-    friction: T,
-    /// Zero for a point contact.
-    arm: T,
+    friction: ContactFriction<T>,
     of: PhantomData<F>,
 }
 
 impl<T: Real, F: Frame> GraspContact<T, F> {
-    /// A point contact with Coulomb friction: from its point \[m\], the fingertip's outward normal there (into the
-    /// object; of any length) and the friction coefficient.
+    /// From its point \[m\], the fingertip's outward normal there (into the object; of any length) and its friction.
     ///
     /// # Errors
-    /// [`BadContact`] if the point is not finite, the normal has no direction, or the coefficient is not positive
-    /// and finite.
-    pub fn point(point: Vector3<T>, outward: Vector3<T>, friction: T) -> Result<Self, BadContact> {
+    /// [`BadContact::BadPlace`] if the point is not finite or the normal has no direction.
+    pub fn new(
+        point: Vector3<T>,
+        outward: Vector3<T>,
+        friction: impl Into<ContactFriction<T>>,
+    ) -> Result<Self, BadContact> {
         let frame = ContactFrame::new(point, outward).map_err(|_| BadContact::BadPlace)?;
-        if !(friction > T::zero() && friction.is_number()) {
-            return Err(BadContact::BadFriction);
-        }
-        Ok(Self { frame, friction, arm: T::zero(), of: PhantomData })
+        Ok(Self { frame, friction: friction.into(), of: PhantomData })
     }
 
-    /// A soft finger: as [`point`](Self::point), with the torque arm `e` \[m\], the greatest spin torque over the
-    /// greatest tangential force (`3πa/16` for Hertz pressure on a patch of radius `a`).
+    /// A point contact, from its friction coefficient.
     ///
     /// # Errors
-    /// [`BadContact`], also if the arm is not positive and finite.
+    /// [`BadContact`] as [`new`](Self::new), or if the coefficient is not positive and finite.
+    pub fn point(point: Vector3<T>, outward: Vector3<T>, friction: T) -> Result<Self, BadContact> {
+        Self::new(point, outward, ContactFriction::point(friction)?)
+    }
+
+    /// A soft finger, from its friction coefficient and [torque arm](ContactFriction::soft) \[m\].
+    ///
+    /// # Errors
+    /// [`BadContact`] as [`point`](Self::point), or if the arm is not positive and finite.
     pub fn soft(point: Vector3<T>, outward: Vector3<T>, friction: T, arm: T) -> Result<Self, BadContact> {
-        let contact = Self::point(point, outward, friction)?;
-        if !(arm > T::zero() && arm.is_number()) {
-            return Err(BadContact::BadArm);
-        }
-        Ok(Self { arm, ..contact })
-    }
-
-    /// With the friction of a point contact's limit.
-    ///
-    /// # Errors
-    /// [`BadContact::BadPlace`].
-    pub fn with_coulomb(
-        point: Vector3<T>,
-        outward: Vector3<T>,
-        limit: &Coulomb<T>,
-    ) -> Result<Self, BadContact> {
-        Self::point(point, outward, limit.coefficient())
-    }
-
-    /// With the friction of a soft finger's limit.
-    ///
-    /// # Errors
-    /// [`BadContact::BadPlace`].
-    pub fn with_soft_finger(
-        point: Vector3<T>,
-        outward: Vector3<T>,
-        limit: &SoftFingerLimit<T>,
-    ) -> Result<Self, BadContact> {
-        Self::soft(point, outward, limit.coefficient(), limit.arm())
-    }
-
-    /// With the friction coefficient that is undercut with `probability` only, of one that is known with an
-    /// uncertainty.
-    ///
-    /// # Errors
-    /// [`BadContact::BadPlace`], or [`BadContact::NoFriction`] if that coefficient is zero.
-    pub fn with_uncertain(
-        point: Vector3<T>,
-        outward: Vector3<T>,
-        friction: &UncertainCoulomb<T>,
-        probability: f64,
-    ) -> Result<Self, BadContact> {
-        Self::point(point, outward, friction.quantile(probability)).map_err(|error| match error {
-            BadContact::BadFriction => BadContact::NoFriction,
-            other => other,
-        })
+        Self::new(point, outward, ContactFriction::soft(friction, arm)?)
     }
 
     /// The same with friction divided by a factor of safety, at least 1.
@@ -122,17 +80,22 @@ impl<T: Real, F: Frame> GraspContact<T, F> {
     /// # Errors
     /// [`BadContact::BadSafety`].
     pub fn with_safety(self, safety: T) -> Result<Self, BadContact> {
-        let friction = self.friction / safety;
-        if safety >= T::one() && safety.is_number() && friction > T::zero() {
-            Ok(Self { friction, ..self })
-        } else {
-            Err(BadContact::BadSafety)
+        match self.with_friction(self.friction() / safety) {
+            Some(contact) if safety >= T::one() && safety.is_number() => Ok(contact),
+            _ => Err(BadContact::BadSafety),
         }
     }
 
     /// With another friction coefficient; `None` unless it is positive and finite.
-    pub(crate) fn with_friction(self, friction: T) -> Option<Self> {
-        (friction > T::zero() && friction.is_number()).then_some(Self { friction, ..self })
+    pub(crate) fn with_friction(self, coefficient: T) -> Option<Self> {
+        Some(Self { friction: self.friction.with_coefficient(coefficient)?, ..self })
+    }
+
+    /// As a sensor tells it that is in the object and not in the fingertip: the other side of the same contact.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let frame = ContactFrame::new(self.place(), -self.normal()).unwrap_or(self.frame);
+        Self { frame, ..*self }
     }
 
     /// The contact in another frame.
@@ -142,7 +105,7 @@ impl<T: Real, F: Frame> GraspContact<T, F> {
         let normal = to_from_here.rotate(&self.frame.normal());
         // Rotation keeps the direction; a place out of range stays what it was and is refused by the grasp.
         let frame = ContactFrame::new(point, normal).unwrap_or(self.frame);
-        GraspContact { frame, friction: self.friction, arm: self.arm, of: PhantomData }
+        GraspContact { frame, friction: self.friction, of: PhantomData }
     }
 
     /// The point \[m\].
@@ -163,14 +126,14 @@ impl<T: Real, F: Frame> GraspContact<T, F> {
     #[inline]
     #[must_use]
     pub const fn friction(&self) -> T {
-        self.friction
+        self.friction.coefficient()
     }
 
     /// The torque arm e \[m\]; zero for a point contact.
     #[inline]
     #[must_use]
     pub const fn arm(&self) -> T {
-        self.arm
+        self.friction.arm()
     }
 
     /// What a contact force is as a wrench on the fingertip, about the origin of the frame.
@@ -190,12 +153,12 @@ impl<T: Real, F: Frame> GraspContact<T, F> {
         let normal = self.frame.normal();
         let [first, second] = self.frame.tangents();
         let mut map = Matrix6x4::zeros();
-        let directions = [normal, first * self.friction, second * self.friction];
+        let directions = [normal, first * self.friction(), second * self.friction()];
         for (mut column, direction) in map.column_iter_mut().zip(&directions) {
             column.fixed_rows_mut::<3>(0).copy_from(direction);
             column.fixed_rows_mut::<3>(3).copy_from(&arm.cross(direction));
         }
-        let spin = normal * (self.friction * (self.arm / length));
+        let spin = normal * (self.friction() * (self.arm() / length));
         map.fixed_view_mut::<3, 1>(3, 3).copy_from(&spin);
         map
     }
@@ -204,16 +167,16 @@ impl<T: Real, F: Frame> GraspContact<T, F> {
     #[inline]
     pub(crate) fn force(&self, scaled: &Vector4<T>) -> ContactForce<T> {
         let [first, second] = self.frame.tangents();
-        let tangential = (first * scaled.y + second * scaled.z) * -self.friction;
-        ContactForce::new(scaled.x, tangential, -scaled.w * self.friction * self.arm)
+        let tangential = (first * scaled.y + second * scaled.z) * -self.friction();
+        ContactForce::new(scaled.x, tangential, -scaled.w * self.friction() * self.arm())
     }
 
     /// The reverse of [`force`](Self::force).
     #[inline]
     pub(crate) fn scaled(&self, force: &ContactForce<T>) -> Vector4<T> {
         let [first, second] = self.frame.tangents();
-        let on_object = force.tangential.vector() / -self.friction;
-        let spin = self.friction * self.arm;
+        let on_object = force.tangential.vector() / -self.friction();
+        let spin = self.friction() * self.arm();
         let spin = if spin > T::zero() { -force.spin / spin } else { T::zero() };
         Vector4::new(force.normal, first.dot(&on_object), second.dot(&on_object), spin)
     }

@@ -129,9 +129,10 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
     ) -> [Option<Row<T>>; ROWS] {
         let mut rows = [None; ROWS];
         let along = |first: T| Vector4::new(first, T::zero(), T::zero(), T::zero());
-        let simple = [(self.greatest, T::one()), (self.least, -T::one())];
-        let simple = simple.into_iter().filter_map(|(bound, sign)| {
-            bound.map(|bound| Row { normal: along(sign), bound: bound * sign * per_newton })
+        let both = self.greatest.is_some() && self.least.is_some();
+        let simple = [(self.greatest, T::one(), false), (self.least, -T::one(), both)];
+        let simple = simple.into_iter().filter_map(|(bound, sign, opposite)| {
+            bound.map(|bound| Row { normal: along(sign), bound: bound * sign * per_newton, opposite })
         });
         let origin = nalgebra::Vector3::zeros();
         let joints = self.joints.iter().flatten().flat_map(|(column, greatest)| {
@@ -141,7 +142,11 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
             // A row near 1, so that it is worth as much as another.
             let size = normal.amax().max(bound * T::EPSILON);
             let size = size.normalising_factor();
-            [T::one(), -T::one()].map(|sign| Row { normal: normal * (sign * size), bound: bound * size })
+            [(T::one(), false), (-T::one(), true)].map(|(sign, opposite)| Row {
+                normal: normal * (sign * size),
+                bound: bound * size,
+                opposite,
+            })
         });
         for (row, found) in rows.iter_mut().zip(simple.chain(joints)) {
             *row = Some(found);

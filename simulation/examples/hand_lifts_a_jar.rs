@@ -7,7 +7,6 @@ use fingertip_simulation::SimulationError;
 use fingertip_simulation::hand::{
     FingerPlace, GrippingHand, GrippingSettings, HandOptions, HandScript, HeldObject, SimulatedHand,
 };
-use fingertip_wrench::ContactForce;
 
 fn main() -> Result<(), SimulationError> {
     // A jar of 6 cm and 200 g. Nothing touches for the first segment: it gives the zeros.
@@ -31,9 +30,8 @@ fn main() -> Result<(), SimulationError> {
         if millisecond % 100 != 0 {
             return;
         }
-        let contacts = felt.fingers.map(|finger| finger.map(|finger| finger.contact));
-        let forces = felt.fingers.map(|finger| finger.map_or_else(ContactForce::zero, |finger| finger.force));
-        let left = Grasp::new(contacts).least_slip_margin(&forces).map_or(0.0, |margin| margin.newtons);
+        let (grasp, forces) = Grasp::of_fingers(&felt.fingers);
+        let left = grasp.least_slip_margin(&forces).map_or(0.0, |margin| margin.newtons);
         let [first, second] = command.normal;
         print!("{:.1} s: press with {first:.2} and {second:.2} N, {left:.2} N from slipping", sample.time);
         match weight.mass() {

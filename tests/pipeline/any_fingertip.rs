@@ -4,7 +4,7 @@ use fingertip::contact::{PointContact, SoftFinger};
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise};
 use fingertip::surfaces::{Capsule, Sphere, Torus};
 use fingertip::wrench::Wrench;
-use fingertip::{Fingertip, Present, Step, TouchSensor};
+use fingertip::{Fingertip, Fingertips, Present, Step, TouchSensor};
 use nalgebra::Vector3;
 
 /// Each answers as it does alone, stage by stage; one that has no such stage says nothing there.
@@ -54,4 +54,54 @@ fn the_last_contact_is_handed_on() {
     assert!((ring.feel(push, Step::of(1e-3)).point().unwrap().x - 0.013).abs() < 1e-12);
     let again = ring.feel(push, Step::of(1e-3).with_last(Some(inside)));
     assert!((again.point().unwrap().x + 0.007).abs() < 1e-12);
+}
+
+/// Tuples of two to five and arrays answer as each does alone, in their order.
+#[test]
+fn fingers_together_answer_as_they_do_alone() {
+    let ball = |radius: f64| {
+        let noise = ForceNoise::isotropic(0.01).unwrap();
+        Fingertip::builder()
+            .contact(Sphere::centred(radius).unwrap(), SoftFinger::new(0.1).unwrap())
+            .slip_detector(DropDetector::new(noise).unwrap())
+            .build()
+    };
+    let ring = || {
+        Fingertip::builder()
+            .contact(Torus::new(0.01, 0.003).unwrap(), PointContact::new(0.1).unwrap())
+            .build()
+    };
+    fn check<const N: usize>(hand: &mut impl Fingertips<f64, N>, mut alone: [&mut dyn TouchSensor<f64>; N]) {
+        for k in 0..50 {
+            let mut number = f64::from(k);
+            let wrenches = [(); N].map(|()| {
+                number += 0.7;
+                let force = Vector3::new(-1.0, 0.2 * number.sin(), 0.1 * number.cos());
+                Wrench::from_force_at(&Vector3::new(0.01, 1e-3 * number.cos(), 0.0), force)
+            });
+            let steps = [(); N].map(|()| {
+                number += 1.0;
+                Step::of(1e-3 * number).with_last((k % 2 == 0).then(|| Vector3::x() * -0.007))
+            });
+            let touches = hand.feel_all(&wrenches, &steps);
+            for (((touch, wrench), step), finger) in touches.iter().zip(wrenches).zip(steps).zip(&mut alone) {
+                assert_eq!(*touch, finger.feel(wrench, step));
+            }
+            if k == 25 {
+                hand.start_all_anew();
+                alone.iter_mut().for_each(|finger| finger.start_anew());
+            }
+        }
+        let still = Wrench::zero();
+        assert!(hand.feel_all(&[still; N], &[Step::of(1e-3); N]).iter().all(|touch| touch.point().is_none()));
+    }
+    let ([mut a, mut b, mut c], [mut r, mut q]) = ([0.013, 0.011, 0.01].map(ball), [ring(), ring()]);
+    check(&mut (a, r), [&mut a, &mut r]);
+    check(&mut (a, r, b), [&mut a, &mut r, &mut b]);
+    check(&mut (r, a, b, c), [&mut r, &mut a, &mut b, &mut c]);
+    check(&mut (a, r, b, q, c), [&mut a, &mut r, &mut b, &mut q, &mut c]);
+    check(&mut [a, b, c], [&mut a, &mut b, &mut c]);
+    let (mut first, mut second) = (a, r);
+    let mut mixed: [&mut dyn TouchSensor<f64>; 2] = [&mut first, &mut second];
+    check(&mut mixed, [&mut a, &mut r]);
 }

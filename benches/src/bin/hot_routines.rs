@@ -10,7 +10,8 @@ use fingertip_friction::{
     Coulomb, DropDetector, ForceNoise, FrictionModel, LikelihoodRatioDetector, NormalForceGate, PowerLimit,
     RatioThreshold, SlipDetector, SoftFingerLimit,
 };
-use fingertip_scenes::{Felt, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
+use fingertip_hand::Hand;
+use fingertip_scenes::{Felt, Grips, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
 use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Plane, Sphere, Superquadric, Torus};
 use fingertip_wrench::{
     BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix,
@@ -202,9 +203,29 @@ fn scenes() -> Result<(), Failure> {
     Ok(())
 }
 
+/// The least grip of five soft fingers, from nothing and from the sample before, with what it takes to read the grasp.
+fn grips() -> Result<(), Failure> {
+    let none = "a grasp cannot be built";
+    macro_rules! each {
+        ($($name:ident: $scalar:ty, $start:ident;)*) => { $(
+            let mut loads = Grips::<$scalar>::new().ok_or(none)?;
+            let loads: Vec<_> = (0..CALLS).map(|_| loads.next_load()).collect();
+            count!($name, Grips::<$scalar>::new().ok_or(none)?, Grips<$scalar>, loads, |s, w: Wrench<$scalar, Hand>| s.$start(w));
+        )* };
+    }
+    each! {
+        least_grip_cold_f64: f64, cold;
+        least_grip_warm_f64: f64, warm;
+        least_grip_cold_f32: f32, cold;
+        least_grip_warm_f32: f32, warm;
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Failure> {
     solvers()?;
     contacts()?;
     friction()?;
+    grips()?;
     scenes()
 }

@@ -63,7 +63,7 @@ static int hold(ft_tip *tips[FINGERS], ft_hand *hand, double command[FINGERS]) {
                 fprintf(stderr, "finger %d: %s\n", i, error.message);
                 return -1;
             }
-            touching += (int)fingers[i].touching;
+            touching += fingers[i].touching == 1;
         }
         held += touching == FINGERS;
         ft_hand_order order;

@@ -184,6 +184,9 @@ enum ft_hand_state
     FT_HAND_CANNOT_HOLD = 1,
     // A number is not finite, no plausible contact is left, or no answer was found. The commands are those of before.
     FT_HAND_BLIND = 2,
+    // A finger feels what cannot be, so that what the others are to bear is not known, and no load was given. The commands
+    // are those of before.
+    FT_HAND_DOUBTFUL = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -400,7 +403,8 @@ typedef struct ft_pose {
 
 // What a finger feels, in the frame of the hand. All zero is a finger that touches nothing.
 typedef struct ft_finger {
-    // 1 if it touches, 0 if it is to be left out.
+    // 0 if it touches nothing or is to be left out, 1 if it touches. 2 if it feels a force that no contact explains: what it
+    // bears is not known then, and the rest below is not looked at.
     uint32_t touching;
     // What its slip detector says: a number of ft_slip; more than 3 counts as FT_NOT_PRESSING.
     uint32_t slip;
@@ -509,6 +513,8 @@ typedef struct ft_hand_settings {
     double least_friction;
     // A contact that asks for a greater friction ratio is implausible, and its force is not used.
     double greatest_ratio;
+    // With what rate the factor that slips have taught goes back to one, in 1/s; 0 for never.
+    double recovery;
 } ft_hand_settings;
 
 // What a finger can give. All zero is a finger that can give any force.
@@ -525,7 +531,7 @@ typedef struct ft_finger_limits {
 typedef struct ft_hand_order {
     // What they rest on.
     ft_hand_state state;
-    // Bit i is 1 if the contact of finger i was not believed.
+    // Bit i is 1 if finger i was not believed.
     uint32_t implausible;
     // For each finger, in N; zero of fingers that the hand has not.
     double normal_force[FT_MAX_FINGERS];
@@ -604,8 +610,8 @@ ft_status ft_tip_from_file(const char *scene,
 const char *ft_status_text(uint32_t status);
 
 // A finger of a touch, moved into the frame of the hand; the friction coefficient and, for a soft finger, the torque
-// arm in m (0 for a point contact) are the caller's. A touch that is no contact makes a finger that touches nothing.
-// `error` may be NULL.
+// arm in m (0 for a point contact) are the caller's. A force below the threshold makes a finger that touches nothing, any
+// other that is no contact one whose `touching` is 2. `error` may be NULL.
 ft_status ft_finger_from_touch(const struct ft_touch *touch,
                                const struct ft_pose *hand_from_sensor,
                                double friction,
@@ -613,8 +619,8 @@ ft_status ft_finger_from_touch(const struct ft_touch *touch,
                                struct ft_finger *finger,
                                struct ft_error *error);
 
-// What the fingers feel together: what the object loads them with, its weight among it. About the origin of the frame
-// of the hand. `error` may be NULL.
+// What the contacts of the fingers feel together: what the object loads them with, its weight among it, if none of them is
+// wrong. About the origin of the frame of the hand. `error` may be NULL.
 ft_status ft_object_wrench(const struct ft_finger *fingers,
                            size_t count,
                            struct ft_wrench *wrench,
@@ -645,7 +651,7 @@ ft_status ft_hand_least_grip(struct ft_hand *hand,
                              struct ft_grip *grip);
 
 // A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
-// and no contact beyond a friction ratio of 3.
+// without recovery, and no contact beyond a friction ratio of 3.
 struct ft_hand_settings ft_hand_settings_defaults(void);
 
 // Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has
@@ -663,7 +669,8 @@ void ft_hand_free(struct ft_hand **hand);
 const char *ft_hand_message(const struct ft_hand *hand);
 
 // The normal forces to command for the next sample, which rise at once when a finger slips. `load` is what the object
-// loads the fingers with, as ft_object_wrench tells; NULL for just that. `time_step` is the time since the call before,
+// loads the fingers with, where that is known without them, as from its mass or a sensor in the wrist: a finger that feels
+// what cannot be is left out then. NULL for what the fingers feel: while one feels what cannot be, commands stay. `time_step` is the time since the call before,
 // in s. Allocates nothing. That no forces hold is FT_OK, and a state of the order.
 ft_status ft_hand_command(struct ft_hand *hand,
                           const struct ft_finger *fingers,

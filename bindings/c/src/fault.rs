@@ -67,6 +67,8 @@ pub(crate) enum Fault {
     Fingers { found: usize, most: usize },
     #[error("finger {finger}: {source}")]
     Contact { finger: usize, source: BadContact },
+    #[error(transparent)]
+    NoFinger(BadContact),
     #[error("finger {finger}: {source}")]
     Limit { finger: usize, source: BadLimit },
     #[error(transparent)]
@@ -107,6 +109,7 @@ impl Fault {
             }
             Self::Number { .. }
             | Self::Contact { .. }
+            | Self::NoFinger(_)
             | Self::Limit { .. }
             | Self::Settings(_)
             | Self::Pose(_)

@@ -1,9 +1,11 @@
 //! A finger of a hand: where it touches, and what friction allows there.
 
 use fingertip::friction::{SlipMargin, SlipVerdict};
-use fingertip::hand::{FingerLimits, FingerSample, Grasp, GraspContact, Hand};
+use fingertip::hand::{
+    BadContact, ContactFriction, FingerLimits, FingerSample, FingerState, Grasp, GraspContact, Hand, HandLoad,
+};
 use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use crate::border::{place, read, told};
 use crate::fault::{Fault, finite, ft_status};
@@ -28,7 +30,8 @@ pub struct ft_pose {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ft_finger {
-    /// 1 if it touches, 0 if it is to be left out.
+    /// 0 if it touches nothing or is to be left out, 1 if it touches. 2 if it feels a force that no contact explains: what it
+    /// bears is not known then, and the rest below is not looked at.
     pub touching: u32,
     /// What its slip detector says: a number of ft_slip; more than 3 counts as FT_NOT_PRESSING.
     pub slip: u32,
@@ -71,7 +74,11 @@ pub struct ft_margin {
 }
 
 /// Fingers on this side of the border.
-pub(crate) type Fingers = [Option<FingerSample<f64, Hand>>; FT_MAX_FINGERS];
+pub(crate) type Fingers = [FingerState<f64>; FT_MAX_FINGERS];
+
+/// Numbers of `touching`.
+const TOUCHING: u32 = 1;
+const UNEXPLAINED: u32 = 2;
 
 impl ft_finger {
     const NONE: Self = Self {
@@ -86,24 +93,36 @@ impl ft_finger {
         spin_torque: 0.0,
     };
 
-    fn sample(&self, finger: usize) -> Result<Option<FingerSample<f64, Hand>>, Fault> {
-        if self.touching == 0 {
-            return Ok(None);
+    fn state(&self, finger: usize) -> Result<FingerState<f64>, Fault> {
+        match self.touching {
+            0 => return Ok(FingerState::Free),
+            TOUCHING => {}
+            UNEXPLAINED => return Ok(FingerState::Unexplained),
+            _ => return Err(Fault::Number { name: "touching", requirement: "0, 1 or 2" }),
         }
-        let (point, normal) = (self.point.into(), self.normal.into());
-        let contact = match self.torque_arm == 0.0 {
-            true => GraspContact::point(point, normal, self.friction),
-            false => GraspContact::soft(point, normal, self.friction, self.torque_arm),
-        };
-        let contact = contact.map_err(|source| Fault::Contact { finger, source })?;
-        let slip = match self.slip {
-            1 => SlipVerdict::Holding,
-            2 => SlipVerdict::Warning,
-            3 => SlipVerdict::Slipping,
-            _ => SlipVerdict::NotPressing,
-        };
+        let friction = friction(self.friction, self.torque_arm);
+        let contact = friction
+            .and_then(|friction| GraspContact::new(self.point.into(), self.normal.into(), friction))
+            .map_err(|source| Fault::Contact { finger, source })?;
         let force = ContactForce::new(self.normal_force, self.tangential_force.into(), self.spin_torque);
-        Ok(Some(FingerSample { contact, force, slip }))
+        Ok(FingerState::Touching(FingerSample { contact, force, slip: verdict(self.slip) }))
+    }
+}
+
+/// A torque arm of zero is a point contact.
+fn friction(coefficient: f64, arm: f64) -> Result<ContactFriction<f64>, BadContact> {
+    match arm == 0.0 {
+        true => ContactFriction::point(coefficient),
+        false => ContactFriction::soft(coefficient, arm),
+    }
+}
+
+fn verdict(slip: u32) -> SlipVerdict {
+    match slip {
+        1 => SlipVerdict::Holding,
+        2 => SlipVerdict::Warning,
+        3 => SlipVerdict::Slipping,
+        _ => SlipVerdict::NotPressing,
     }
 }
 
@@ -131,33 +150,25 @@ pub(crate) fn fingers(fingers: *const ft_finger, count: usize) -> Result<Fingers
     }
     let given: [ft_finger; FT_MAX_FINGERS] =
         crate::border::read_many(fingers, count, "fingers", ft_finger::NONE)?;
-    let mut samples = [None; FT_MAX_FINGERS];
-    for (index, (sample, finger)) in samples.iter_mut().zip(&given).enumerate() {
-        *sample = finger.sample(index)?;
+    let mut fingers = [FingerState::Free; FT_MAX_FINGERS];
+    for (index, (state, finger)) in fingers.iter_mut().zip(&given).enumerate() {
+        *state = finger.state(index)?;
     }
-    Ok(samples)
+    Ok(fingers)
 }
 
-/// The grasp of fingers, and the forces that they feel.
-pub(crate) fn grasp(fingers: &Fingers) -> (Grasp<f64, FT_MAX_FINGERS>, [ContactForce<f64>; FT_MAX_FINGERS]) {
-    let contacts = fingers.map(|finger| finger.map(|finger| finger.contact));
-    let forces = fingers.map(|finger| finger.map_or_else(ContactForce::zero, |finger| finger.force));
-    (Grasp::new(contacts), forces)
-}
-
-/// The load that a caller gives, or what the fingers feel together.
-pub(crate) fn load(load: *const ft_wrench, fingers: &Fingers) -> Result<Wrench<f64, Hand>, Fault> {
+/// The load that a caller gives; NULL for what the fingers feel.
+pub(crate) fn load(load: *const ft_wrench) -> Result<HandLoad<f64>, Fault> {
     if load.is_null() {
-        let (grasp, forces) = grasp(fingers);
-        return Ok(grasp.wrench(&forces));
+        return Ok(HandLoad::FromFingers);
     }
     let load = read(load, "load")?;
-    Ok(Wrench::on_fingertip(load.force.into(), load.torque.into()))
+    Ok(HandLoad::Known(Wrench::on_fingertip(load.force.into(), load.torque.into())))
 }
 
 /// A finger of a touch, moved into the frame of the hand; the friction coefficient and, for a soft finger, the torque
-/// arm in m (0 for a point contact) are the caller's. A touch that is no contact makes a finger that touches nothing.
-/// `error` may be NULL.
+/// arm in m (0 for a point contact) are the caller's. A force below the threshold makes a finger that touches nothing, any
+/// other that is no contact one whose `touching` is 2. `error` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_finger_from_touch(
     touch: *const ft_touch,
@@ -175,24 +186,43 @@ pub unsafe extern "C" fn ft_finger_from_touch(
         let pose: RigidTransform<f64, Hand, Sensor> =
             RigidTransform::from_matrix(rotation, pose.origin.into()).map_err(Fault::Pose)?;
         let (friction, torque_arm) = (finite("friction", friction)?, finite("torque_arm", torque_arm)?);
-        let Some(touch) = touched else {
-            place.put(ft_finger::NONE);
-            return Ok(());
+        let touch = match touched {
+            Touching::Nothing => {
+                place.put(ft_finger::NONE);
+                return Ok(());
+            }
+            Touching::Unexplained => {
+                place.put(ft_finger { touching: UNEXPLAINED, ..ft_finger::NONE });
+                return Ok(());
+            }
+            Touching::Here(touch) => touch,
         };
-        let turned = |vector: [f64; 3]| pose.rotate(&Vector3::from(vector)).into();
+        let contact = self::friction(friction, torque_arm)
+            .and_then(|friction| GraspContact::new(touch.point.into(), touch.normal.into(), friction))
+            .map_err(Fault::NoFinger)?;
+        let force = ContactForce::new(touch.normal_force, touch.tangential_force.into(), touch.spin_torque);
+        let sample: FingerSample<f64, Sensor> = FingerSample { contact, force, slip: verdict(touch.slip) };
+        let FingerSample { contact, force, .. } = sample.expressed_in(&pose);
         place.put(ft_finger {
-            touching: 1,
+            touching: TOUCHING,
             slip: touch.slip,
-            point: pose.transform_point(&touch.point.into()).into(),
-            normal: turned(touch.normal),
+            point: contact.place().into(),
+            normal: contact.normal().into(),
             friction,
             torque_arm,
-            normal_force: touch.normal_force,
-            tangential_force: turned(touch.tangential_force),
-            spin_torque: touch.spin_torque,
+            normal_force: force.normal,
+            tangential_force: force.tangential.vector().into(),
+            spin_torque: force.spin,
         });
         Ok(())
     })
+}
+
+/// A touch as a finger takes it.
+enum Touching {
+    Nothing,
+    Here(Touched),
+    Unexplained,
 }
 
 /// What of a touch makes a finger.
@@ -207,17 +237,20 @@ struct Touched {
 }
 
 /// Reads a touch that a caller may have written anything into: its enumerations as the numbers that they are.
-fn resolved(touch: *const ft_touch) -> Result<Option<Touched>, Fault> {
+fn resolved(touch: *const ft_touch) -> Result<Touching, Fault> {
     if touch.is_null() {
         return Err(Fault::Null("touch"));
     }
     // SAFETY: the caller's structure; fields are taken by their addresses, and as numbers, of which any bits are one.
     unsafe {
         let resolution = (&raw const (*touch).resolution).cast::<u32>().read_unaligned();
-        if resolution != ft_resolution::FT_CONTACT as u32 {
-            return Ok(None);
+        if resolution == ft_resolution::FT_BELOW_THRESHOLD as u32 {
+            return Ok(Touching::Nothing);
         }
-        Ok(Some(Touched {
+        if resolution != ft_resolution::FT_CONTACT as u32 {
+            return Ok(Touching::Unexplained);
+        }
+        Ok(Touching::Here(Touched {
             slip: (&raw const (*touch).slip).cast::<u32>().read_unaligned(),
             point: (&raw const (*touch).point).read_unaligned(),
             normal: (&raw const (*touch).normal).read_unaligned(),
@@ -228,8 +261,8 @@ fn resolved(touch: *const ft_touch) -> Result<Option<Touched>, Fault> {
     }
 }
 
-/// What the fingers feel together: what the object loads them with, its weight among it. About the origin of the frame
-/// of the hand. `error` may be NULL.
+/// What the contacts of the fingers feel together: what the object loads them with, its weight among it, if none of them is
+/// wrong. About the origin of the frame of the hand. `error` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_object_wrench(
     fingers: *const ft_finger,
@@ -240,7 +273,7 @@ pub unsafe extern "C" fn ft_object_wrench(
     told(error, || {
         let place = place(wrench, "wrench")?;
         let fingers = self::fingers(fingers, count)?;
-        let (grasp, forces) = grasp(&fingers);
+        let (grasp, forces) = Grasp::of_fingers(&fingers);
         let load = grasp.wrench(&forces);
         place.put(ft_wrench { force: load.force().into(), torque: load.torque().into() });
         Ok(())
@@ -258,7 +291,7 @@ pub unsafe extern "C" fn ft_slip_margins(
     told(error, || {
         place(margins, "margins")?;
         let fingers = self::fingers(fingers, count)?;
-        let (grasp, forces) = grasp(&fingers);
+        let (grasp, forces) = Grasp::of_fingers(&fingers);
         let none = SlipMargin { newtons: 0.0, utilisation: 0.0 };
         let told = grasp.slip_margins(&forces).map(|margin| {
             let margin = margin.unwrap_or(none);

@@ -1,10 +1,10 @@
 //! The least grip that holds a load, as a question of its own.
 
-use fingertip::hand::GripOutcome;
+use fingertip::hand::{Grasp, GripOutcome};
 
 use crate::border::{on, place};
 use crate::fault::ft_status;
-use crate::finger::{FT_MAX_FINGERS, fingers, ft_finger, grasp, load};
+use crate::finger::{FT_MAX_FINGERS, fingers, ft_finger, load};
 use crate::hand::{ft_hand, ft_hand_state};
 use crate::load::ft_wrench;
 
@@ -62,8 +62,12 @@ pub unsafe extern "C" fn ft_hand_least_grip(
         let place = place(grip, "grip")?;
         hand.check(count)?;
         let fingers = self::fingers(fingers, count)?;
-        let load = self::load(load, &fingers)?;
-        let (grasp, _) = grasp(&fingers);
+        let greatest_ratio = hand.controller.settings().greatest_ratio;
+        let Some(load) = self::load(load)?.wrench(&fingers, greatest_ratio) else {
+            place.put(ft_grip::none(ft_hand_state::FT_HAND_DOUBTFUL));
+            return Ok(());
+        };
+        let (grasp, _) = Grasp::of_fingers(&fingers);
         place.put(match hand.least.solve(&grasp, &hand.limits, &load) {
             GripOutcome::Held(found) => ft_grip {
                 normal_force: found.forces.map(|force| force.normal),

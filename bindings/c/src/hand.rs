@@ -16,7 +16,7 @@ pub(crate) const ROWS: usize = 2;
 /// A hand: what it commanded last, and what slip has taught it. Made by ft_hand_create, freed by ft_hand_free.
 #[derive(Debug)]
 pub struct ft_hand {
-    controller: HandController<f64, FT_MAX_FINGERS, ROWS>,
+    pub(crate) controller: HandController<f64, FT_MAX_FINGERS, ROWS>,
     pub(crate) limits: [FingerLimits<f64, ROWS>; FT_MAX_FINGERS],
     /// For the question of the least grip alone.
     pub(crate) least: LeastGrip<f64, FT_MAX_FINGERS, ROWS>,
@@ -56,6 +56,8 @@ pub struct ft_hand_settings {
     pub least_friction: f64,
     /// A contact that asks for a greater friction ratio is implausible, and its force is not used.
     pub greatest_ratio: f64,
+    /// With what rate the factor that slips have taught goes back to one, in 1/s; 0 for never.
+    pub recovery: f64,
 }
 
 /// What commands rest on.
@@ -68,6 +70,9 @@ pub enum ft_hand_state {
     FT_HAND_CANNOT_HOLD = 1,
     /// A number is not finite, no plausible contact is left, or no answer was found. The commands are those of before.
     FT_HAND_BLIND = 2,
+    /// A finger feels what cannot be, so that what the others are to bear is not known, and no load was given. The commands
+    /// are those of before.
+    FT_HAND_DOUBTFUL = 3,
 }
 
 /// Normal forces to command.
@@ -76,7 +81,7 @@ pub enum ft_hand_state {
 pub struct ft_hand_order {
     /// What they rest on.
     pub state: ft_hand_state,
-    /// Bit i is 1 if the contact of finger i was not believed.
+    /// Bit i is 1 if finger i was not believed.
     pub implausible: u32,
     /// For each finger, in N; zero of fingers that the hand has not.
     pub normal_force: [f64; FT_MAX_FINGERS],
@@ -88,12 +93,12 @@ pub struct ft_hand_order {
 }
 
 /// A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
-/// and no contact beyond a friction ratio of 3.
+/// without recovery, and no contact beyond a friction ratio of 3.
 #[unsafe(no_mangle)]
 pub extern "C" fn ft_hand_settings_defaults() -> ft_hand_settings {
-    let HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio } =
+    let HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery } =
         HandSettings::default();
-    ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio }
+    ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery }
 }
 
 /// Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has
@@ -119,8 +124,9 @@ pub unsafe extern "C" fn ft_hand_create(
                 *to = from.limits(index)?;
             }
         }
-        let ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio } = given;
-        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio };
+        let ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery } =
+            given;
+        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery };
         let controller = HandController::new(settings, each)?;
         let least = LeastGrip::new();
         hand_out(place, ft_hand { controller, limits: each, least, count, error: ft_error::none() });
@@ -145,7 +151,8 @@ pub unsafe extern "C" fn ft_hand_message(hand: *const ft_hand) -> *const c_char 
 }
 
 /// The normal forces to command for the next sample, which rise at once when a finger slips. `load` is what the object
-/// loads the fingers with, as ft_object_wrench tells; NULL for just that. `time_step` is the time since the call before,
+/// loads the fingers with, where that is known without them, as from its mass or a sensor in the wrist: a finger that feels
+/// what cannot be is left out then. NULL for what the fingers feel: while one feels what cannot be, commands stay. `time_step` is the time since the call before,
 /// in s. Allocates nothing. That no forces hold is FT_OK, and a state of the order.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_hand_command(
@@ -160,7 +167,7 @@ pub unsafe extern "C" fn ft_hand_command(
         let place = place(order, "order")?;
         hand.check(count)?;
         let fingers = self::fingers(fingers, count)?;
-        let load = self::load(load, &fingers)?;
+        let load = self::load(load)?;
         let command = hand.controller.command(&fingers, &load, time_step);
         let mut told = ft_hand_order {
             state: ft_hand_state::FT_HAND_HOLDING,
@@ -181,6 +188,7 @@ pub unsafe extern "C" fn ft_hand_command(
                 told.state = ft_hand_state::FT_HAND_CANNOT_HOLD;
                 (told.velocity, told.turning) = (why.velocity.into(), why.turning.into());
             }
+            HandState::Doubtful => told.state = ft_hand_state::FT_HAND_DOUBTFUL,
             HandState::Blind => told.state = ft_hand_state::FT_HAND_BLIND,
         }
         place.put(told);

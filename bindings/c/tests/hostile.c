@@ -125,7 +125,7 @@ static void some_finger(ft_finger *finger) {
         return;
     }
     const double angle = uniform(3.14159);
-    finger->touching = !once_in(6);
+    finger->touching = once_in(6) ? 0 : once_in(12) ? 2 : once_in(24) ? (uint32_t)below(5) : 1;
     finger->slip = (uint32_t)below(5);
     finger->point[0] = 0.03 * cos(angle);
     finger->point[1] = 0.03 * sin(angle);

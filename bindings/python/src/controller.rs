@@ -1,13 +1,15 @@
 //! `fingertip.HandController`: how firmly each finger shall press.
 
 use fingertip::friction::SlipVerdict;
-use fingertip::hand::{FingerSample, HandCommand, HandController, HandSettings, HandState};
+use fingertip::hand::{
+    FingerSample, FingerState, HandCommand, HandController, HandLoad, HandSettings, HandState,
+};
 use fingertip::wrench::ContactForce;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::hand::{MOST, contact, limits, wrench};
-use crate::{errors, numbers, value};
+use crate::{enums, errors, numbers, value};
 
 /// Tells the fingers of a hand how firmly to press, so that they hold with some safety and no more.
 ///
@@ -22,6 +24,8 @@ use crate::{errors, numbers, value};
 /// least_friction, greatest_ratio : float, optional
 ///     Below what coefficient friction is never taken, and the greatest friction ratio that a contact can have: one that
 ///     asks for more is not believed.
+/// recovery : float, optional
+///     With what rate the factor that slips have taught goes back to one [1/s]; 0 for never.
 /// least, greatest : float, optional
 ///     Normal force of each finger [N].
 ///
@@ -45,12 +49,24 @@ impl PyController {
 
 value::watcher_class!(PyController);
 
+/// What a finger says that feels a force without a contact.
+pub(crate) const UNEXPLAINED: &str = "unexplained";
+
 /// The command: normal forces [N], whether the load is held (`None` where it is not known), and fingers whose contact
 /// cannot be believed.
 type Command = (Vec<f64>, Option<bool>, Vec<bool>);
 
-/// What a finger feels, from the argument of `command`.
-fn finger(given: &Bound<'_, PyDict>) -> PyResult<FingerSample<f64>> {
+/// What a finger says, from the argument of `command`.
+fn finger(given: &Bound<'_, PyAny>) -> PyResult<FingerState<f64>> {
+    if given.is_none() {
+        return Ok(FingerState::Free);
+    }
+    if given.extract::<&str>().is_ok_and(|word| word == UNEXPLAINED) {
+        return Ok(FingerState::Unexplained);
+    }
+    let given = given
+        .cast::<PyDict>()
+        .map_err(|_| errors::hand(format!("a finger is a dict, `None` or \"{UNEXPLAINED}\"")))?;
     let part =
         |key: &str| given.get_item(key)?.ok_or_else(|| errors::hand(format!("a finger needs `{key}`")));
     let spin = given.get_item("spin")?.map_or(Ok(0.0), |spin| spin.extract())?;
@@ -62,17 +78,34 @@ fn finger(given: &Bound<'_, PyDict>) -> PyResult<FingerSample<f64>> {
         2 => SlipVerdict::Warning,
         _ => SlipVerdict::Slipping,
     };
-    Ok(FingerSample {
+    Ok(FingerState::Touching(FingerSample {
         contact: contact(given)?,
         force: ContactForce::new(part("normal")?.extract()?, tangential, spin),
         slip,
-    })
+    }))
+}
+
+/// A contact of a finger as `command` takes it.
+pub(crate) fn told<'py>(py: Python<'py>, sample: &FingerSample<f64>) -> PyResult<Bound<'py, PyAny>> {
+    let FingerSample { contact, force, slip } = sample;
+    let told = PyDict::new(py);
+    told.set_item("point", numbers::array(py, &contact.place()))?;
+    told.set_item("outward", numbers::array(py, &contact.normal()))?;
+    told.set_item("friction", contact.friction())?;
+    if contact.arm() > 0.0 {
+        told.set_item("arm", contact.arm())?;
+    }
+    told.set_item("normal", force.normal)?;
+    told.set_item("tangential", numbers::array(py, &force.tangential.vector()))?;
+    told.set_item("spin", force.spin)?;
+    told.set_item("slip", enums::slip(py, *slip)?)?;
+    Ok(told.into_any())
 }
 
 #[pymethods]
 impl PyController {
     #[new]
-    #[pyo3(signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, least=0.3, greatest=None))]
+    #[pyo3(signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, recovery=0.0, least=0.3, greatest=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         safety: f64,
@@ -81,10 +114,11 @@ impl PyController {
         at_slip: f64,
         least_friction: f64,
         greatest_ratio: f64,
+        recovery: f64,
         least: f64,
         greatest: Option<f64>,
     ) -> PyResult<Self> {
-        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio };
+        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery };
         Self::of((settings, least, greatest))
     }
 
@@ -92,42 +126,46 @@ impl PyController {
     ///
     /// Parameters
     /// ----------
-    /// fingers : list of dict or None
+    /// fingers : list of dict, None or "unexplained"
     ///     Of each of up to five fingers `None` without contact, or a contact as of a `Grasp`, with `normal` [N],
-    ///     `tangential` [N], and if known `spin` [N·m] and `slip`, a `SlipVerdict`.
-    /// load : array_like, shape (6,)
-    ///     What pulls at the object [N, N·m].
+    ///     `tangential` [N], and if known `spin` [N·m] and `slip`, a `SlipVerdict`; "unexplained" if it feels a force
+    ///     without a contact. As `Touch.finger` gives it.
     /// time_step : float
     ///     Since the command before [s].
+    /// load : array_like, shape (6,), optional
+    ///     What pulls at the object [N, N·m], where it is known without the fingers; by default what they feel. While one of
+    ///     them feels what cannot be, that is not known, and commands stay.
     ///
     /// Returns
     /// -------
     /// normal : list of float
     ///     Normal forces to command [N].
     /// holds : bool or None
-    ///     Whether the load can be held; `None` where that is not known.
+    ///     Whether the load can be held; `None` where that is not known, and commands are those of before.
     /// implausible : list of bool
-    ///     Fingers whose friction cannot be believed.
+    ///     Fingers that are not believed.
+    #[pyo3(signature = (fingers, time_step, *, load=None))]
     fn command(
         &mut self,
-        fingers: Vec<Option<Bound<'_, PyDict>>>,
-        load: &Bound<'_, PyAny>,
+        fingers: Vec<Bound<'_, PyAny>>,
         time_step: f64,
+        load: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Command> {
         let count = fingers.len();
         if count > MOST {
             return Err(errors::hand(format!("a hand has at most {MOST} fingers, not {count}")));
         }
-        let mut samples = [None; MOST];
-        for (sample, given) in samples.iter_mut().zip(&fingers) {
-            *sample = given.as_ref().map(finger).transpose()?;
+        let mut states = [FingerState::Free; MOST];
+        for (state, given) in states.iter_mut().zip(&fingers) {
+            *state = finger(given)?;
         }
-        let HandCommand { normal, state, implausible } =
-            self.hand.command(&samples, &wrench(load, "load")?, time_step);
+        let load = load.map(|load| wrench(load, "load")).transpose()?;
+        let load = load.map_or(HandLoad::FromFingers, HandLoad::Known);
+        let HandCommand { normal, state, implausible } = self.hand.command(&states, &load, time_step);
         let holds = match state {
             HandState::Holding => Some(true),
             HandState::CannotHold(_) => Some(false),
-            HandState::Blind => None,
+            HandState::Doubtful | HandState::Blind => None,
         };
         Ok((normal.into_iter().take(count).collect(), holds, implausible.into_iter().take(count).collect()))
     }

@@ -2,14 +2,17 @@
 
 use fingertip::AnyTouch;
 use fingertip::friction::FrictionEstimate;
+use fingertip::hand::{ContactFriction, FingerState, Hand};
+use fingertip::wrench::{RigidTransform, Sensor};
 use fingertip_scene::Felt;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{PyContact, PyNoContact};
 use crate::value::value_class;
-use crate::{enums, numbers};
+use crate::{controller, enums, errors, numbers};
 
 /// What one sample says, as an object of Python holds it: small, since it is copied on its way there. What few scenes tell
 /// has memory of its own.
@@ -195,6 +198,46 @@ impl PyTouch {
     #[getter]
     fn grip_force(&self) -> Option<f64> {
         self.0.more(|felt| felt.grip_force)
+    }
+
+    /// What a finger of a hand says by this touch, in the frame of the hand, as `HandController.command` takes it.
+    ///
+    /// Parameters
+    /// ----------
+    /// rotation : array_like, shape (3, 3)
+    ///     How the sensor is turned in the hand: its columns are the axes of the sensor there.
+    /// origin : array_like, shape (3,)
+    ///     Where the origin of the sensor is in the hand [m].
+    /// friction : float
+    ///     Coefficient of friction, as far as it is known.
+    /// arm : float, optional
+    ///     Of a soft finger the greatest spin torque over the greatest tangential force [m].
+    ///
+    /// Returns
+    /// -------
+    /// dict, None or str
+    ///     `None` for a force too small for a contact, "unexplained" for one that no contact gives.
+    #[pyo3(signature = (rotation, origin, friction, arm=None))]
+    fn finger<'py>(
+        &self,
+        py: Python<'py>,
+        rotation: &Bound<'py, PyAny>,
+        origin: &Bound<'py, PyAny>,
+        friction: f64,
+        arm: Option<f64>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let mut friction = ContactFriction::point(friction).map_err(errors::hand)?;
+        if let Some(arm) = arm {
+            friction = friction.with_arm(arm).map_err(errors::hand)?;
+        }
+        let rotation = numbers::matrix::<3, 3>(rotation, "rotation")?;
+        let pose: RigidTransform<f64, Hand, Sensor> =
+            RigidTransform::from_matrix(rotation, numbers::three(origin, "origin")?).map_err(errors::hand)?;
+        match self.0.touch.finger(&friction).expressed_in(&pose) {
+            FingerState::Free => Ok(None),
+            FingerState::Touching(sample) => controller::told(py, &sample).map(Some),
+            FingerState::Unexplained => Ok(Some(PyString::new(py, controller::UNEXPLAINED).into_any())),
+        }
     }
 
     /// Whether something touches.

@@ -308,12 +308,48 @@ def test_a_controller_presses_as_firmly_as_it_must():
              "slip": SlipVerdict.SLIPPING if (step, i) == (250, 1) else SlipVerdict.HOLDING}
             for i, (o, n) in enumerate(zip(outward, normal, strict=True))
         ]  # fmt: skip
-        normal, holds, implausible = hand.command(fingers, load, 1e-3)
+        # What is known of the load, and what the fingers feel, are one.
+        normal, holds, implausible = hand.command(fingers, 1e-3, load=load if step % 2 else None)
         if step == 249:
             before = normal
     assert holds is True and not any(implausible)
     least = [n for n, _, _ in three().least_grip(weight)]
     assert np.allclose(before, np.array(least) * 1.3, rtol=0.3) and sum(normal) > sum(before)
+
+
+def test_a_finger_that_reads_what_cannot_be_drives_no_other():
+    scene = fingertip.Scene.from_dict(
+        {"surface": {"shape": "sphere", "radius_m": 0.01}, "contact": {"model": "soft_finger", "least_force_N": 0.05}}
+    )
+    angles = (0.0, 2.1, 4.2)
+    # The third axis of each sensor points at the middle of the object.
+    turns = [np.array([[np.sin(a), 0, -np.cos(a)], [-np.cos(a), 0, -np.sin(a)], [0, 1, 0]]) for a in angles]
+    origins = [-0.05 * turn[:, 2] for turn in turns]
+    hand = fingertip.HandController(greatest=15.0)
+    tips = [fingertip.Fingertip(scene) for _ in turns]
+
+    def felt(turn, tip, normal):
+        force = np.array([0.0, -1.0, -normal])
+        touch = tip.sense_wrench([*force, *np.cross([0, 0, 0.01], force)], 1e-3)
+        return touch.finger(turn, -0.05 * turn[:, 2], 0.6, 2e-3)
+
+    for _ in range(100):
+        fingers = [felt(turn, tip, 3.0) for turn, tip in zip(turns, tips, strict=True)]
+        normal, holds, implausible = hand.command(fingers, 1e-3)
+    assert holds and not any(implausible) and all(1.0 < n < 5.0 for n in normal)
+    for finger, turn, origin in zip(fingers, turns, origins, strict=True):
+        assert np.allclose(finger["point"], origin + 0.01 * turn[:, 2]) and np.allclose(finger["outward"], turn[:, 2])
+        assert np.isclose(finger["normal"], 3.0) and np.allclose(finger["tangential"], [0, 0, -1.0])
+    wrong = tips[2].sense_wrench([0, 0, 15.0, 0.3, 0, 0], 1e-3).finger(turns[2], origins[2], 0.6, 2e-3)
+    assert wrong == "unexplained"
+    assert tips[2].sense_wrench([0] * 6, 1e-3).finger(turns[2], origins[2], 0.6) is None
+    for bad in (wrong, {**fingers[2], "normal": 0.1, "tangential": [0, 0, -15.0]}):
+        for _ in range(50):
+            assert hand.command([*fingers[:2], bad], 1e-3) == (normal, None, [False, False, True])
+    weight = np.array([0.0, 0.0, -1.0, 0.0, 0.0, 0.0])
+    assert hand.command([*fingers[:2], None], 1e-3, load=weight)[1:] == (True, [False] * 3)
+    with pytest.raises(fingertip.HandError, match="unexplained"):
+        hand.command(["odd"], 1e-3)
 
 
 def test_an_object_is_weighed():
@@ -461,7 +497,7 @@ def test_all_that_watches_is_copied_and_pickled():
         (fingertip.ChannelMonitor([0.0, 0.0], [5.0, 5.0]), lambda one: one.update([2.5, 5.0])),
         (fingertip.ContactEvents(0.01, 0.06), lambda one: one.observe([0, 0, -0.3], 1e-3).touching),
         (fingertip.IncipientSlip(0.005, 2e-5, 0.5), lambda one: one.update(2.0, force, [1e-6, 0, 0])),
-        (fingertip.HandController(safety=1.5, greatest=10.0), lambda one: one.command([None], [0, 0, -1.0, 0, 0, 0], 1e-3)),
+        (fingertip.HandController(safety=1.5, greatest=10.0), lambda one: one.command([None], 1e-3, load=[0, 0, -1.0, 0, 0, 0])),
     ]
     for watch, ask in made:
         fresh, twin = pickle.loads(pickle.dumps(watch)), copy.copy(watch)

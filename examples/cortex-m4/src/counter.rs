@@ -47,6 +47,8 @@ impl Counter {
         let ticks = start.wrapping_sub(SYST::get_current()) & PERIOD;
         let ticks = ticks.saturating_sub(self.reading);
         // Rounded to whole instructions.
-        (ticks * 1000 + self.ticks_per_thousand / 2) / self.ticks_per_thousand.max(1)
+        let found = (u64::from(ticks) * 1000 + u64::from(self.ticks_per_thousand / 2))
+            / u64::from(self.ticks_per_thousand.max(1));
+        u32::try_from(found).unwrap_or(u32::MAX)
     }
 }

@@ -14,7 +14,9 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::{debug, hprintln};
 use embedded_alloc::LlffHeap;
-use fingertip_scenes::{SAMPLES, Scene, SceneA, SceneB, SceneC, SceneD, SceneE, Volts, fold};
+use fingertip_scenes::{
+    GripLoad, GripOutcome, Grips, SAMPLES, Scene, SceneA, SceneB, SceneC, SceneD, SceneE, Volts, fold,
+};
 
 use crate::counter::Counter;
 
@@ -69,6 +71,34 @@ where
     hprintln!("cost {} {} {} {}", S::NAME, counts[SAMPLES / 2], counts[SAMPLES - 1], stack);
 }
 
+/// The least grip from that of the sample before.
+#[inline(never)]
+fn grip(grips: &mut Grips<f32>, load: &GripLoad<f32>, outcome: &mut GripOutcome<f32>) {
+    *outcome = grips.warm(load);
+}
+
+/// The least grip of five soft fingers: the first from nothing, all others from the one before.
+fn play_grips(counter: &Counter) {
+    let (Some(mut grips), Some(mut again)) = (Grips::<f32>::new(), Grips::<f32>::new()) else {
+        hprintln!("the grasp cannot be built");
+        return;
+    };
+    let load = grips.next_load();
+    let mut outcome = grips.warm(&load);
+    let cold = counter.instructions(|| outcome = again.warm(black_box(&load)));
+    hprintln!("bits grip 0 {:08x}", fold(&outcome));
+    let mut counts = [0_u32; SAMPLES];
+    for (index, count) in counts.iter_mut().enumerate() {
+        let load = grips.next_load();
+        *count =
+            counter.instructions(|| grip(black_box(&mut grips), black_box(&load), black_box(&mut outcome)));
+        hprintln!("bits grip {} {:08x}", index + 1, fold(&outcome));
+    }
+    let stack = stack::used(|| grip(black_box(&mut again), black_box(&load), black_box(&mut outcome)));
+    counts.sort_unstable();
+    hprintln!("cost grip {} {} {} {}", counts[SAMPLES / 2], counts[SAMPLES - 1], stack, cold);
+}
+
 #[entry]
 fn main() -> ! {
     let Some(peripherals) = cortex_m::Peripherals::take() else {
@@ -85,6 +115,7 @@ fn main() -> ! {
     play::<SceneC, 8>(&counter);
     play::<SceneD, 8>(&counter);
     play::<SceneE, 6>(&counter);
+    play_grips(&counter);
     debug::exit(debug::EXIT_SUCCESS);
     loop {}
 }

@@ -3,7 +3,7 @@
 use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
 use nalgebra::{Matrix6x4, Vector3, Vector6};
 
-use crate::{GraspContact, Hand};
+use crate::{FingerState, GraspContact, Hand};
 
 /// The contacts of a hand with `N` fingers on one object; `None` for a finger that touches nothing.
 ///
@@ -47,6 +47,19 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
             T::one()
         };
         Self { contacts, origin, length }
+    }
+
+    /// The grasp of what fingers say, and the forces that they feel: zero of a finger without a contact.
+    #[must_use]
+    pub fn of_fingers(fingers: &[FingerState<T, F>; N]) -> (Self, [ContactForce<T>; N]) {
+        let mut contacts = [None; N];
+        let mut forces = [ContactForce::zero(); N];
+        for ((contact, force), finger) in contacts.iter_mut().zip(&mut forces).zip(fingers) {
+            if let Some(sample) = finger.sample() {
+                (*contact, *force) = (Some(sample.contact), sample.force);
+            }
+        }
+        (Self::new(contacts), forces)
     }
 
     /// The contacts, by finger.

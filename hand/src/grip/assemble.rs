@@ -32,17 +32,15 @@ pub(crate) fn assemble<T: Real, const N: usize, const ROWS: usize, F: Frame>(
         }
     }
     let cost_factor = dearest.normalising_factor();
-    let mut finite = wrench.iter().all(|x| x.is_number());
+    let numbers = |values: &[T]| values.iter().all(|x| x.is_number());
+    let mut finite = numbers(wrench.as_slice());
     let maps = grasp.blocks().zip(grasp.contacts()).zip(limits);
     for (block, ((map, contact), limits)) in blocks.fingers.iter_mut().zip(maps) {
         let (Some(map), Some(contact)) = (map, contact) else { continue };
         let rows = limits.rows(contact, per_newton);
         finite = finite
-            && map.iter().all(|x| x.is_number())
-            && rows
-                .iter()
-                .flatten()
-                .all(|row| row.bound.is_number() && row.normal.iter().all(|x| x.is_number()));
+            && numbers(map.as_slice())
+            && rows.iter().flatten().all(|row| row.bound.is_number() && numbers(row.normal.as_slice()));
         *block = Some(Block { map, cost: limits.cost() * cost_factor, rows });
     }
     finite.then_some(Assembled { program: Program { blocks, wrench: *wrench, cost_factor }, most })

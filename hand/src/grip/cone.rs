@@ -3,7 +3,9 @@
 //! Scaling after Nesterov & Todd 1997, in the form of Andersen, Roos & Terlaky 2003.
 
 use fingertip_wrench::Real;
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::{Matrix6x4, Vector4};
+
+use crate::grip::kernels::scale_columns;
 
 /// Length of the part that the cone bounds, without over- or underflow for entries near 1.
 #[inline]
@@ -24,11 +26,11 @@ pub(crate) fn product<T: Real>(u: &Vector4<T>, v: &Vector4<T>) -> Vector4<T> {
     Vector4::new(u.dot(v), u.x * v.y + v.x * u.y, u.x * v.z + v.x * u.z, u.x * v.w + v.x * u.w)
 }
 
-/// The `x` with `u ∘ x = d`, for `u` inside the cone.
+/// The `x` with `u ∘ x = d`, for `u` inside the cone and its determinant.
 #[inline]
-pub(crate) fn divide<T: Real>(u: &Vector4<T>, d: &Vector4<T>) -> Vector4<T> {
+pub(crate) fn divide<T: Real>(u: &Vector4<T>, det: T, d: &Vector4<T>) -> Vector4<T> {
     let inner = u.y * d.y + u.z * d.z + u.w * d.w;
-    let first = (u.x * d.x - inner) / det(u);
+    let first = (u.x * d.x - inner) / det;
     let inverse = T::one() / u.x;
     Vector4::new(
         first,
@@ -38,22 +40,21 @@ pub(crate) fn divide<T: Real>(u: &Vector4<T>, d: &Vector4<T>) -> Vector4<T> {
     )
 }
 
-/// The greatest step from `y`, inside the cone, along `d` that stays in it; at most `most`.
+/// The greatest step from `y`, inside the cone with that determinant, along `d` that stays in it; at most `most`.
 #[inline]
-pub(crate) fn step_to_boundary<T: Real>(y: &Vector4<T>, d: &Vector4<T>, most: T) -> T {
+pub(crate) fn step_to_boundary<T: Real>(y: &Vector4<T>, det: T, d: &Vector4<T>, most: T) -> T {
     // det(y + αd) = a α² + 2b α + c, and the first component must stay positive.
     let b = y.x * d.x - (y.y * d.y + y.z * d.z + y.w * d.w);
     let a = d.x * d.x - (d.y * d.y + d.z * d.z + d.w * d.w);
-    let c = det(y).max(T::zero());
-    let discriminant = b * b - a * c;
+    let discriminant = b * b - a * det;
     let mut step = most;
-    if d.x < T::zero() {
+    if y.x + d.x * step < T::zero() {
         step = step.min(-y.x / d.x);
     }
     if discriminant >= T::zero() && (b < T::zero() || a < T::zero()) {
         // The smallest positive root, without cancellation.
         let root = discriminant.root();
-        let found = if b < T::zero() { c / (root - b) } else { -(b + root) / a };
+        let found = if b < T::zero() { det / (root - b) } else { -(b + root) / a };
         if found >= T::zero() {
             step = step.min(found);
         }
@@ -62,84 +63,89 @@ pub(crate) fn step_to_boundary<T: Real>(y: &Vector4<T>, d: &Vector4<T>, most: T)
 }
 
 /// The Nesterov-Todd scaling `W` of a pair inside the cone: `W z = W⁻¹ y`, symmetric.
+///
+/// `W v = s (w₀v₀ + w₁·v₁, v₁ + (v₀ + w₁·v₁/(1 + w₀)) w₁)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scaling<T: Real> {
     /// `w`, with `w₀² − |w₁|² = 1`.
     w: Vector4<T>,
+    /// `1/(1 + w₀)`.
+    share: T,
     size: T,
-    /// `W z`.
+    /// The scaled point, `W z`, and its determinant.
     pub(crate) point: Vector4<T>,
+    pub(crate) det: T,
 }
 
 impl<T: Real> Scaling<T> {
-    #[inline]
+    /// Of nothing.
+    pub(crate) fn none() -> Self {
+        let (zero, none) = (T::zero(), Vector4::zeros());
+        Self { w: none, share: zero, size: zero, point: none, det: zero }
+    }
+
+    #[inline(never)]
     pub(crate) fn new(y: &Vector4<T>, z: &Vector4<T>) -> Self {
         let (of_y, of_z) = (det(y).root(), det(z).root());
-        let (y, z) = (y / of_y, z / of_z);
+        let one = T::one();
+        let (of_y_inverse, of_z_inverse) = (one / of_y, one / of_z);
+        let (y, unit_z) = (y * of_y_inverse, z * of_z_inverse);
         let half = T::literal(0.5);
-        let gamma = ((T::one() + y.dot(&z)) * half).root();
+        let gamma = ((one + y.dot(&unit_z)) * half).root();
         let unit = half / gamma;
-        let tail = Vector4::new(T::zero(), (y.y - z.y) * unit, (y.z - z.z) * unit, (y.w - z.w) * unit);
+        let tail = Vector4::new(
+            T::zero(),
+            (y.y - unit_z.y) * unit,
+            (y.z - unit_z.z) * unit,
+            (y.w - unit_z.w) * unit,
+        );
         // From the tail, so that w is on the hyperboloid to rounding.
-        let w = tail + Vector4::new((T::one() + tail.norm_squared()).root(), T::zero(), T::zero(), T::zero());
-        let mut scaling = Self { w, size: (of_y / of_z).root(), point: Vector4::zeros() };
-        scaling.point = scaling.apply(&(z * of_z));
+        let w = tail + Vector4::new((one + tail.norm_squared()).root(), T::zero(), T::zero(), T::zero());
+        let size = (of_y * of_z_inverse).root();
+        let (share, det) = (one / (one + w.x), of_y * of_z);
+        let mut scaling = Self { w, share, size, point: Vector4::zeros(), det };
+        scaling.point = scaling.apply(z);
         scaling
     }
 
     /// `W v`.
     #[inline]
     pub(crate) fn apply(&self, v: &Vector4<T>) -> Vector4<T> {
-        Self::hyperbolic(&self.w, v) * self.size
-    }
-
-    /// `W⁻¹ v`.
-    #[inline]
-    pub(crate) fn undo(&self, v: &Vector4<T>) -> Vector4<T> {
-        let mirrored = Vector4::new(self.w.x, -self.w.y, -self.w.z, -self.w.w);
-        Self::hyperbolic(&mirrored, v) / self.size
-    }
-
-    /// `W` as a matrix.
-    #[inline]
-    pub(crate) fn matrix(&self) -> Matrix4<T> {
-        let w = self.w * self.size;
-        let share = T::one() / (T::one() + self.w.x);
-        let s = self.size;
-        let e = |a: T, b: T| a * b * share;
-        let (a, b, c) = (self.w.y, self.w.z, self.w.w);
-        Matrix4::new(
-            w.x,
-            w.y,
-            w.z,
-            w.w,
-            w.y,
-            s + e(a, w.y),
-            e(a, w.z),
-            e(a, w.w),
-            w.z,
-            e(b, w.y),
-            s + e(b, w.z),
-            e(b, w.w),
-            w.w,
-            e(c, w.y),
-            e(c, w.z),
-            s + e(c, w.w),
+        let w = &self.w;
+        let inner = w.y * v.y + w.z * v.z + w.w * v.w;
+        let along = v.x + inner * self.share;
+        let size = self.size;
+        Vector4::new(
+            (w.x * v.x + inner) * size,
+            (v.y + along * w.y) * size,
+            (v.z + along * w.z) * size,
+            (v.w + along * w.w) * size,
         )
     }
 
+    /// The first row of `W`, `s w`.
     #[inline]
-    fn hyperbolic(w: &Vector4<T>, v: &Vector4<T>) -> Vector4<T> {
-        let inner = w.y * v.y + w.z * v.z + w.w * v.w;
-        let along = v.x + inner / (T::one() + w.x);
-        Vector4::new(w.x * v.x + inner, v.y + along * w.y, v.z + along * w.z, v.w + along * w.w)
+    pub(crate) fn first_row(&self) -> Vector4<T> {
+        self.w * self.size
+    }
+
+    /// Writes `map·W`.
+    #[inline]
+    pub(crate) fn map(&self, map: &Matrix6x4<T>, scaled: &mut Matrix6x4<T>) {
+        scale_columns(map, &self.w, self.share, self.size, scaled);
+    }
+
+    /// The greatest step from the scaled point along `d` that stays in the cone; at most `most`.
+    #[inline(never)]
+    pub(crate) fn step_to_boundary(&self, d: &Vector4<T>, most: T) -> T {
+        step_to_boundary(&self.point, self.det, d, most)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Scaling, det, divide, product, step_to_boundary, tail};
-    use nalgebra::Vector4;
+    use nalgebra::{Matrix6x4, Vector4};
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
 
@@ -160,12 +166,21 @@ mod tests {
             let (y, z) = (inside(&mut rng), inside(&mut rng));
             let scaling = Scaling::new(&y, &z);
             let near = |a: &Vector4<f64>, b: &Vector4<f64>, size: f64| (a - b).norm() < 1e-6 * size;
-            assert!(near(&scaling.apply(&z), &scaling.undo(&y), scaling.point.norm()));
+            // W W z = y, and W z is the point, of that determinant.
+            let size = scaling.size * scaling.w.norm();
+            assert!(near(&scaling.apply(&scaling.point), &y, size * scaling.point.norm()));
             assert!(near(&scaling.point, &scaling.apply(&z), scaling.point.norm()));
-            assert!(near(&scaling.undo(&scaling.apply(&y)), &y, y.norm() * scaling.w.norm_squared()));
-            let matrix = scaling.matrix();
-            assert!(near(&(matrix * y), &scaling.apply(&y), matrix.norm() * y.norm()));
+            assert!((det(&scaling.point) / scaling.det - 1.0).abs() < 1e-6);
+            let mut matrix = nalgebra::Matrix4::zeros();
+            for j in 0..4 {
+                matrix.set_column(j, &scaling.apply(&Vector4::ith(j, 1.0)));
+            }
             assert!((matrix - matrix.transpose()).amax() < 1e-12 * matrix.amax());
+            assert!((matrix.row(0) - scaling.first_row().transpose()).amax() < 1e-12 * matrix.amax());
+            let map = Matrix6x4::from_fn(|_, _| rng.random_range(-1.0..1.0));
+            let mut scaled = Matrix6x4::zeros();
+            scaling.map(&map, &mut scaled);
+            assert!((scaled - map * matrix).amax() < 1e-12 * matrix.amax());
             assert!(
                 (scaling.w.x * scaling.w.x - tail(&scaling.w).powi(2) - 1.0).abs()
                     < 1e-12 * scaling.w.norm_squared()
@@ -179,7 +194,7 @@ mod tests {
         for _ in 0..500 {
             let (u, x) = (inside(&mut rng), Vector4::from_fn(|_, _| rng.random_range(-1.0..1.0)));
             // The product with a vector as a matrix, whose determinant is u₀²·det u.
-            let off = divide(&u, &product(&u, &x)) - x;
+            let off = divide(&u, det(&u), &product(&u, &x)) - x;
             assert!(off.norm() < 1e-13 * u.norm_squared() / det(&u), "{off}");
             assert_eq!(product(&u, &x), product(&x, &u));
         }
@@ -202,7 +217,7 @@ mod tests {
                 let at = y + d * step;
                 at.x >= tail(&at)
             };
-            let step = step_to_boundary(&y, &d, 2.0);
+            let step = step_to_boundary(&y, det(&y), &d, 2.0);
             if holds(2.0) {
                 free += 1;
                 assert!(step > 2.0 * (1.0 - 1e-9));
@@ -226,12 +241,12 @@ mod tests {
         for slack in [0.0_f64, 1e-300, 1e-17, 1e-12, 1e-9, -1e-9, -1e-12] {
             // 1 − α = α(1 − slack).
             let d = Vector4::new(-1.0, 0.0, 1.0 - slack, 0.0);
-            let step = step_to_boundary(&y, &d, 2.0);
+            let step = step_to_boundary(&y, det(&y), &d, 2.0);
             assert!((step - 1.0 / (2.0 - slack)).abs() < 1e-15, "{slack}: {step}");
         }
-        assert_eq!(step_to_boundary(&y, &Vector4::new(1.0, 1.0, 0.0, 0.0), 2.0), 2.0);
-        assert_eq!(step_to_boundary(&y, &Vector4::new(0.0, 0.0, 0.0, 1.0), 2.0), 1.0);
-        assert_eq!(step_to_boundary(&y, &Vector4::new(-4.0, 0.0, 0.0, 0.0), 2.0), 0.25);
-        assert_eq!(step_to_boundary(&y, &Vector4::zeros(), 2.0), 2.0);
+        assert_eq!(step_to_boundary(&y, 1.0, &Vector4::new(1.0, 1.0, 0.0, 0.0), 2.0), 2.0);
+        assert_eq!(step_to_boundary(&y, 1.0, &Vector4::new(0.0, 0.0, 0.0, 1.0), 2.0), 1.0);
+        assert_eq!(step_to_boundary(&y, 1.0, &Vector4::new(-4.0, 0.0, 0.0, 0.0), 2.0), 0.25);
+        assert_eq!(step_to_boundary(&y, 1.0, &Vector4::zeros(), 2.0), 2.0);
     }
 }

@@ -3,7 +3,7 @@
 use fingertip_wrench::Real;
 use nalgebra::Vector6;
 
-use crate::grip::block::Interior;
+use crate::grip::interior::Interior;
 
 /// One for each finger, and one for a disturbance that is to be as great as possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,11 +12,7 @@ pub(crate) struct Each<A, const N: usize> {
     pub(crate) extra: A,
 }
 
-impl<A: Copy, const N: usize> Each<A, N> {
-    pub(crate) const fn all(value: A) -> Self {
-        Self { fingers: [value; N], extra: value }
-    }
-
+impl<A, const N: usize> Each<A, N> {
     #[inline]
     pub(crate) fn iter(&self) -> impl Iterator<Item = &A> {
         self.fingers.iter().chain(core::iter::once(&self.extra))
@@ -25,6 +21,67 @@ impl<A: Copy, const N: usize> Each<A, N> {
     #[inline]
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut A> {
         self.fingers.iter_mut().chain(core::iter::once(&mut self.extra))
+    }
+
+    /// Changes each with another. (A loop over a chain of iterators, zipped with others, would take longer than what is
+    /// done in it.)
+    #[inline(always)]
+    pub(crate) fn change_with<B>(&mut self, other: &Each<B, N>, mut visit: impl FnMut(&mut A, &B)) {
+        for (a, b) in self.fingers.iter_mut().zip(&other.fingers) {
+            visit(a, b);
+        }
+        visit(&mut self.extra, &other.extra);
+    }
+
+    /// The same with two others.
+    #[inline(always)]
+    pub(crate) fn change_with_two<B, C>(
+        &mut self,
+        others: (&Each<B, N>, &Each<C, N>),
+        mut visit: impl FnMut(&mut A, &B, &C),
+    ) {
+        let (second, third) = others;
+        for ((a, b), c) in self.fingers.iter_mut().zip(&second.fingers).zip(&third.fingers) {
+            visit(a, b, c);
+        }
+        visit(&mut self.extra, &second.extra, &third.extra);
+    }
+
+    /// The same with three others.
+    #[inline(always)]
+    pub(crate) fn change_with_three<B, C, D>(
+        &mut self,
+        others: (&Each<B, N>, &Each<C, N>, &Each<D, N>),
+        mut visit: impl FnMut(&mut A, &B, &C, &D),
+    ) {
+        let (second, third, fourth) = others;
+        let each = self.fingers.iter_mut().zip(&second.fingers);
+        for ((a, b), (c, d)) in each.zip(third.fingers.iter().zip(&fourth.fingers)) {
+            visit(a, b, c, d);
+        }
+        visit(&mut self.extra, &second.extra, &third.extra, &fourth.extra);
+    }
+
+    /// The same of two that are changed, with two others.
+    #[inline(always)]
+    pub(crate) fn change_both_with_two<B, C, D>(
+        &mut self,
+        second: &mut Each<B, N>,
+        others: (&Each<C, N>, &Each<D, N>),
+        mut visit: impl FnMut(&mut A, &mut B, &C, &D),
+    ) {
+        let (third, fourth) = others;
+        let each = self.fingers.iter_mut().zip(&mut second.fingers);
+        for ((a, b), (c, d)) in each.zip(third.fingers.iter().zip(&fourth.fingers)) {
+            visit(a, b, c, d);
+        }
+        visit(&mut self.extra, &mut second.extra, &third.extra, &fourth.extra);
+    }
+}
+
+impl<A: Copy, const N: usize> Each<A, N> {
+    pub(crate) const fn all(value: A) -> Self {
+        Self { fingers: [value; N], extra: value }
     }
 }
 
@@ -55,13 +112,29 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
             && self.kappa > T::zero()
             && self.tau.is_number()
             && self.kappa.is_number()
-            && self.twist.iter().all(|x| x.is_number())
+            && self.twist.as_slice().iter().all(|x| x.is_number())
             && self.blocks.iter().all(Interior::is_inside)
     }
 
-    /// Takes a solution with `τ = 1` off the boundary, the further the more the problem has moved since.
+    /// Goes back towards an iterate inside, half the way and half of that, where rounding has had a step lead outside;
+    /// `false` if that does not help.
+    pub(crate) fn return_inside(&mut self, before: &Self) -> bool {
+        let half = T::literal(0.5);
+        for _ in 0..4 {
+            self.blocks.change_with(&before.blocks, |at, before| at.go_halfway(before));
+            self.twist = (self.twist + before.twist) * half;
+            self.tau = (self.tau + before.tau) * half;
+            self.kappa = (self.kappa + before.kappa) * half;
+            if self.is_inside() {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Takes an iterate with `τ = 1` farther inside, the farther the more the problem has moved since.
     pub(crate) fn lift(&mut self, moved: T) {
-        let up = (moved * T::literal(0.5)).max(T::literal(1e-3)).min(T::literal(0.5));
+        let up = (moved * T::literal(0.2)).min(T::literal(0.5));
         for inner in self.blocks.iter_mut() {
             inner.y.x += up;
             inner.z.x += up;
@@ -70,7 +143,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
                 row.price += up;
             }
         }
-        self.kappa = up;
+        self.kappa += up;
     }
 
     /// The same direction with numbers near 1.
@@ -128,5 +201,25 @@ mod tests {
             };
             assert!(twisted(-3.0) && !twisted(f64::NAN) && !twisted(f64::INFINITY));
         }
+    }
+
+    #[test]
+    fn a_step_that_led_outside_is_taken_back_as_far_as_need_be() {
+        let before = Iterate::<f64, 2, 1>::middle();
+        let outside = |first: f64| {
+            let mut at = before;
+            at.blocks.fingers[1].z.x = first;
+            at.blocks.fingers[0].rows[0].price = 2.0;
+            (at.tau, at.twist.x) = (3.0, 8.0);
+            at
+        };
+        let mut near = outside(-0.5);
+        assert!(near.return_inside(&before));
+        assert_eq!((near.blocks.fingers[1].z.x, near.blocks.fingers[0].rows[0].price), (0.25, 1.5));
+        assert_eq!((near.tau, near.twist.x), (2.0, 4.0));
+        let mut far = outside(-2.0);
+        assert!(far.return_inside(&before));
+        assert_eq!((far.blocks.fingers[1].z.x, far.tau, far.twist.x), (0.25, 1.5, 2.0));
+        assert!(!outside(-20.0).return_inside(&before) && !outside(f64::NAN).return_inside(&before));
     }
 }

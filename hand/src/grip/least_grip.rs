@@ -73,7 +73,10 @@ pub struct LeastGrip<T: Real, const N: usize, const ROWS: usize> {
 /// What the next call starts from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Last<T: Real, const N: usize, const ROWS: usize> {
-    iterate: Iterate<T, N, ROWS>,
+    /// An iterate on the way to the solution, with `τ = 1`.
+    midway: Iterate<T, N, ROWS>,
+    /// The twist of the solution.
+    twist: Vector6<T>,
     /// Rows of each finger; `None` where it does not touch.
     counts: [Option<usize>; N],
     per_newton: T,
@@ -156,7 +159,9 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
             stop.greatest = stop.greatest.min(most * T::literal(1.001));
         }
         let counts = program.blocks.fingers.map(|block| block.map(|block| block.count()));
-        let (ending, steps, iterate) = self.run(&program, &stop, per_newton, grasp.length(), &counts);
+        let mut midway = None;
+        let (ending, steps, iterate) =
+            self.run(&program, &stop, per_newton, grasp.length(), &counts, &mut midway);
         match ending {
             Ending::Solved => {
                 let mut iterate = iterate;
@@ -167,9 +172,11 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
                     self.last = None;
                     return GripOutcome::NotFinite;
                 }
-                let wrench = program.wrench;
-                let length = grasp.length();
-                self.last = Some(Last { iterate, counts, per_newton, length, wrench });
+                let (wrench, length, twist) = (program.wrench, grasp.length(), iterate.twist);
+                self.last = midway.map(|mut midway| {
+                    midway.rescale(T::one() / midway.tau);
+                    Last { midway, twist, counts, per_newton, length, wrench }
+                });
                 GripOutcome::Held(grip)
             }
             Ending::Infeasible => {
@@ -185,7 +192,7 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
 
     /// The twist that proves the last cost to be least, of any length, in the units of the grasp map.
     pub(crate) fn twist(&self) -> Option<Vector6<T>> {
-        self.last.as_ref().map(|last| last.iterate.twist)
+        self.last.as_ref().map(|last| last.twist)
     }
 
     /// A power of two that brings forces near 1: that of the last call while it does.
@@ -207,6 +214,7 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
         per_newton: T,
         length: T,
         counts: &[Option<usize>; N],
+        midway: &mut Option<Iterate<T, N, ROWS>>,
     ) -> (Ending, u32, Iterate<T, N, ROWS>) {
         let mut steps = 0;
         if let Some(last) = &self.last
@@ -214,17 +222,16 @@ impl<T: Real, const N: usize, const ROWS: usize> LeastGrip<T, N, ROWS> {
             && last.per_newton == per_newton
             && last.length == length
         {
-            let mut iterate = last.iterate;
-            let moved = (program.wrench - last.wrench).amax();
-            iterate.lift(moved);
-            let (ending, used) = program.iterate(&mut iterate, stop);
+            let mut iterate = last.midway;
+            iterate.lift((program.wrench - last.wrench).amax());
+            let (ending, used) = program.iterate(&mut iterate, stop, midway);
             if ending != Ending::Undecided {
                 return (ending, used, iterate);
             }
             steps = used;
         }
         let mut iterate = Iterate::middle();
-        let (ending, used) = program.iterate(&mut iterate, stop);
+        let (ending, used) = program.iterate(&mut iterate, stop, midway);
         (ending, steps + used, iterate)
     }
 }

@@ -4,10 +4,14 @@ mod assemble;
 mod block;
 mod cholesky;
 mod cone;
+mod interior;
 mod iterate;
+mod kernels;
 mod least_grip;
 mod outcome;
 mod program;
+mod scaled;
+mod step;
 
 pub(crate) use assemble::{Assembled, assemble};
 pub(crate) use block::{Block, Row};

@@ -87,7 +87,7 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         let tolerance = T::EPSILON.root();
         let stop = Stop { tolerance, greatest: T::one() / tolerance, steps: 50 };
         let mut iterate = Iterate::middle();
-        match program.iterate(&mut iterate, &stop).0 {
+        match program.iterate(&mut iterate, &stop, &mut None).0 {
             Ending::Solved if size > T::zero() => {
                 let found = iterate.blocks.extra.y.x / iterate.tau;
                 // What an imbalance is worth: near a reach that takes forces without bound it is worth much.

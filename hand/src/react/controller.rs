@@ -1,23 +1,11 @@
 //! Normal forces to command, sample by sample.
 
-use fingertip_friction::SlipVerdict;
-use fingertip_wrench::{ContactForce, Frame, Real, Wrench};
+use fingertip_wrench::{Frame, Real};
 
 use crate::{
-    BadHandSettings, CannotHold, FingerLimits, Grasp, GraspContact, GripOutcome, Hand, HandSettings,
-    LeastGrip,
+    BadHandSettings, CannotHold, FingerLimits, FingerState, FrictionBelief, Grasp, GripOutcome, Hand,
+    HandLoad, HandSettings, LeastGrip, SlipFactor,
 };
-
-/// What a finger knows in one sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FingerSample<T: Real, F: Frame = Hand> {
-    /// Where it touches, with the friction coefficient as far as it is known (a low quantile, not the mean).
-    pub contact: GraspContact<T, F>,
-    /// The force that it feels there.
-    pub force: ContactForce<T>,
-    /// What its slip detector says.
-    pub slip: SlipVerdict,
-}
 
 /// What the commands rest on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +15,9 @@ pub enum HandState<T: Real, F: Frame = Hand> {
     /// No forces within friction and limits hold the load. The commands are those of before: pressing harder does not
     /// help.
     CannotHold(CannotHold<T, F>),
+    /// A finger feels what cannot be, so that what it bears is not known, and no load was
+    /// [stated](HandLoad::Known): the commands are those of before.
+    Doubtful,
     /// A number is not finite, no plausible contact is left, or the program was not decided: the commands are those of
     /// before.
     Blind,
@@ -39,58 +30,59 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
     pub normal: [T; N],
     /// What they rest on.
     pub state: HandState<T, F>,
-    /// The fingers of which the contact was not believed in this sample.
+    /// The fingers that were not believed in this sample: their contact cannot be, or they feel a force without one.
     pub implausible: [bool; N],
 }
 
 /// Keeps the grip of a hand just firm enough, and answers slip in the same sample: the finger's friction is taken as
 /// less, and the least grip is solved anew for the load that is measured (`docs/theory/hand.md#reaction`).
 ///
-/// What is safe: commands change no faster than the settings say, and never leave the limits of the fingers. A contact
-/// that cannot be (a force that does not press, is not finite, or asks for more friction than there is) is left out, and
-/// its finger keeps its command; it never drives a grip. So does every finger when the program has no answer.
+/// What is safe: commands change no faster than the settings say, and never leave the limits of the fingers. A finger
+/// that says what cannot be (a force that does not press, is not finite, asks for more friction than there is, or is felt
+/// without a contact) is left out, keeps its command, and drives no other one: as long as there is one, what the others
+/// are to bear is not known, and all commands stay, unless the [load](HandLoad) is known without the fingers. All stay,
+/// too, when the program has no answer.
 ///
 /// ```
 /// use fingertip_friction::SlipVerdict;
-/// use fingertip_hand::{FingerLimits, FingerSample, GraspContact, Hand, HandController, HandSettings};
-/// use fingertip_wrench::{ContactForce, Wrench};
+/// use fingertip_hand::{
+///     FingerLimits, FingerSample, FingerState, GraspContact, HandController, HandLoad, HandSettings,
+/// };
+/// use fingertip_wrench::ContactForce;
 /// use nalgebra::Vector3;
 ///
-/// let settings = HandSettings {
-///     safety: 1.5, rise: 500.0, fall: 2.0, at_slip: 0.8, least_friction: 0.1, greatest_ratio: 3.0,
-/// };
+/// let settings = HandSettings { safety: 1.5, rise: 500.0, ..HandSettings::default() };
 /// let limits = FingerLimits::<f64, 2>::none().with_least_normal(0.2)?.with_greatest_normal(20.0)?;
 /// let mut hand = HandController::new(settings, [limits; 2])?;
 ///
-/// let weight = Wrench::<f64, Hand>::on_fingertip(-Vector3::z() * 1.96, Vector3::zeros());
+/// // Each feels half of the 200 g that they hold.
 /// let finger = |x: f64, slip| {
 ///     let contact = GraspContact::soft(Vector3::x() * x, -Vector3::x() * x, 0.6, 3e-3)?;
 ///     let force = ContactForce::new(3.0, -Vector3::z() * 0.98, 0.0);
-///     Ok::<_, fingertip_hand::BadContact>(Some(FingerSample { contact, force, slip }))
+///     Ok::<_, fingertip_hand::BadContact>(FingerState::Touching(FingerSample { contact, force, slip }))
 /// };
 /// let mut command = [0.0; 2];
 /// for _ in 0..20 {
 ///     let fingers = [finger(-0.02, SlipVerdict::Holding)?, finger(0.02, SlipVerdict::Holding)?];
-///     command = hand.command(&fingers, &weight, 1e-3).normal;
+///     command = hand.command(&fingers, &HandLoad::FromFingers, 1e-3).normal;
 /// }
 /// assert!((command[0] - 0.98 * 1.5 / 0.6).abs() < 1e-6);
 /// // The left one slips: both press harder at once, by what 1 ms allows.
 /// let fingers = [finger(-0.02, SlipVerdict::Slipping)?, finger(0.02, SlipVerdict::Holding)?];
-/// assert!(hand.command(&fingers, &weight, 1e-3).normal[1] > command[1] + 0.1);
+/// assert!(hand.command(&fingers, &HandLoad::FromFingers, 1e-3).normal[1] > command[1] + 0.1);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HandController<T: Real, const N: usize, const ROWS: usize> {
+pub struct HandController<T: Real, const N: usize, const ROWS: usize, Belief = SlipFactor<T>> {
     settings: HandSettings<T>,
     limits: [FingerLimits<T, ROWS>; N],
     least: LeastGrip<T, N, ROWS>,
     commands: [T; N],
-    /// By what slip has multiplied the friction coefficient of each finger.
-    learnt: [T; N],
+    beliefs: [Belief; N],
 }
 
 impl<T: Real, const N: usize, const ROWS: usize> HandController<T, N, ROWS> {
-    /// Starts at the fingers' least normal forces.
+    /// Starts at the fingers' least normal forces. Slip multiplies the friction of a finger by a [factor](SlipFactor).
     ///
     /// # Errors
     /// [`BadHandSettings`].
@@ -98,47 +90,68 @@ impl<T: Real, const N: usize, const ROWS: usize> HandController<T, N, ROWS> {
         settings: HandSettings<T>,
         limits: [FingerLimits<T, ROWS>; N],
     ) -> Result<Self, BadHandSettings> {
+        Self::with_beliefs(settings, limits, [SlipFactor::default(); N])
+    }
+}
+
+impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
+    HandController<T, N, ROWS, Belief>
+{
+    /// The same with another belief about the friction of each finger, such as one that [learns](crate::LearntFriction).
+    ///
+    /// # Errors
+    /// [`BadHandSettings`].
+    pub fn with_beliefs(
+        settings: HandSettings<T>,
+        limits: [FingerLimits<T, ROWS>; N],
+        beliefs: [Belief; N],
+    ) -> Result<Self, BadHandSettings> {
         let commands = limits.map(|limits| limits.least_normal().unwrap_or_else(T::zero));
         let settings = settings.checked()?;
-        Ok(Self { settings, limits, least: LeastGrip::new(), commands, learnt: [T::one(); N] })
+        Ok(Self { settings, limits, least: LeastGrip::new(), commands, beliefs })
     }
 
-    /// The normal forces \[N\] to command for the next sample.
+    /// Other limits from now on, as of joints that have turned.
+    pub fn set_limits(&mut self, limits: [FingerLimits<T, ROWS>; N]) {
+        self.limits = limits;
+    }
+
+    /// What is believed of the friction of each finger.
+    #[must_use]
+    pub const fn beliefs(&self) -> &[Belief; N] {
+        &self.beliefs
+    }
+
+    /// The normal forces \[N\] to command for the next sample, that hold the load while internal forces change.
     ///
-    /// `load` is what the object loads the fingertips with, as measured: the sum of all wrenches on them
-    /// ([`UncertainWrench::total`](crate::UncertainWrench::total)); so it is kept while internal forces change. A
-    /// finger that touches nothing is `None` and keeps its command. A time step that is not positive and finite
-    /// leaves all commands.
+    /// A finger that touches nothing keeps its command. A time step that is not positive and finite leaves all commands.
     pub fn command<F: Frame>(
         &mut self,
-        fingers: &[Option<FingerSample<T, F>>; N],
-        load: &Wrench<T, F>,
+        fingers: &[FingerState<T, F>; N],
+        load: &HandLoad<T, F>,
         time_step: T,
     ) -> HandCommand<T, N, F> {
         let mut implausible = [false; N];
         let mut contacts = [None; N];
-        let each = fingers.iter().zip(&mut contacts).zip(&mut implausible).zip(&mut self.learnt);
-        for (((finger, contact), implausible), learnt) in each {
-            let Some(finger) = finger else { continue };
-            *implausible = !self.settings.believes(finger);
-            if *implausible {
-                continue;
-            }
-            if finger.slip == SlipVerdict::Slipping {
-                *learnt *= self.settings.at_slip;
-            }
-            let wanted = finger.contact.friction() * *learnt;
-            let friction = wanted.max(self.settings.least_friction.min(finger.contact.friction()));
-            // What was learnt does not sink out of reach.
-            *learnt = friction / finger.contact.friction();
+        let timed = time_step > T::zero() && time_step.is_number();
+        let passed = if timed { time_step } else { T::zero() };
+        let each = fingers.iter().zip(&mut contacts).zip(&mut implausible).zip(&mut self.beliefs);
+        for (((finger, contact), implausible), belief) in each {
+            *implausible = !finger.is_plausible(self.settings.greatest_ratio);
+            let Some(finger) = finger.sample().filter(|_| !*implausible) else { continue };
+            let known = finger.contact.friction();
+            let friction = belief.rely(known, &finger.force, finger.slip, passed, &self.settings);
             *contact = finger.contact.with_friction(friction / self.settings.safety);
         }
         let commands = self.commands;
         let unchanged = |state| HandCommand { normal: commands, state, implausible };
-        if !(time_step > T::zero() && time_step.is_number()) || contacts.iter().flatten().count() == 0 {
+        if !timed || contacts.iter().flatten().count() == 0 {
             return unchanged(HandState::Blind);
         }
-        let grip = match self.least.solve(&Grasp::new(contacts), &self.limits, load) {
+        let Some(load) = load.wrench(fingers, self.settings.greatest_ratio) else {
+            return unchanged(HandState::Doubtful);
+        };
+        let grip = match self.least.solve(&Grasp::new(contacts), &self.limits, &load) {
             GripOutcome::Held(grip) => grip,
             GripOutcome::CannotHold(why) => return unchanged(HandState::CannotHold(why)),
             GripOutcome::NotFinite | GripOutcome::Undecided => return unchanged(HandState::Blind),
@@ -161,27 +174,21 @@ impl<T: Real, const N: usize, const ROWS: usize> HandController<T, N, ROWS> {
         HandCommand { normal: self.commands, state: HandState::Holding, implausible }
     }
 
+    /// The settings.
+    #[must_use]
+    pub const fn settings(&self) -> &HandSettings<T> {
+        &self.settings
+    }
+
     /// The commands now in force \[N\].
     #[must_use]
     pub const fn present(&self) -> [T; N] {
         self.commands
     }
 
-    /// Forgets what slip has taught of a finger's friction, as when another object is grasped.
+    /// Forgets what was learnt of the fingers' friction, as when another object is grasped.
     pub fn forget_friction(&mut self) {
-        self.learnt = [T::one(); N];
+        self.beliefs.iter_mut().for_each(Belief::forget);
         self.least.forget();
-    }
-}
-
-impl<T: Real> HandSettings<T> {
-    /// Whether a contact can be: it presses, with finite numbers, and asks for no more friction than there is.
-    fn believes<F: Frame>(&self, finger: &FingerSample<T, F>) -> bool {
-        let force = &finger.force;
-        let arm = finger.contact.arm();
-        let most = self.greatest_ratio * force.normal;
-        let within =
-            force.tangential_magnitude() <= most && (!(arm > T::zero()) || force.spin.abs() <= most * arm);
-        force.is_finite() && force.normal > T::zero() && within
     }
 }

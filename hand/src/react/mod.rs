@@ -1,7 +1,11 @@
 //! What to command when something changes.
 
+mod belief;
 mod controller;
+mod finger;
 mod settings;
 
-pub use controller::{FingerSample, HandCommand, HandController, HandState};
+pub use belief::{FrictionBelief, LearntFriction, SlipFactor};
+pub use controller::{HandCommand, HandController, HandState};
+pub use finger::{FingerSample, FingerState, HandLoad};
 pub use settings::{BadHandSettings, HandSettings};

@@ -7,7 +7,7 @@ use thiserror::Error;
 ///
 /// Where nothing is known of the hand there is a default for each: presses by 1.3 times what friction needs, which is what
 /// people do (Johansson & Westling 1984), rises by 200 N/s and falls by 2 N/s, takes friction as 0.8 times as large at each
-/// slip and never below 0.1, and believes no contact beyond a friction ratio of 3.
+/// slip and never below 0.1, without recovery, and believes no contact beyond a friction ratio of 3.
 ///
 /// ```
 /// use fingertip_hand::HandSettings;
@@ -31,6 +31,9 @@ pub struct HandSettings<T> {
     /// The greatest friction ratio that a contact can have: a contact that asks for more is implausible, and its
     /// force is not used.
     pub greatest_ratio: T,
+    /// With what rate the factor that slips have taught goes back to one \[1/s\]; zero for never. A grip that loosens again
+    /// may slip again.
+    pub recovery: T,
 }
 
 impl<T: Real> Default for HandSettings<T> {
@@ -42,6 +45,7 @@ impl<T: Real> Default for HandSettings<T> {
             at_slip: T::literal(0.8),
             least_friction: T::literal(0.1),
             greatest_ratio: T::literal(3.0),
+            recovery: T::zero(),
         }
     }
 }
@@ -51,9 +55,7 @@ impl<T: Real> Default for HandSettings<T> {
 /// ```
 /// use fingertip_hand::{HandController, HandSettings, FingerLimits};
 ///
-/// let settings = HandSettings {
-///     safety: 0.5, rise: 100.0, fall: 2.0, at_slip: 0.8, least_friction: 0.1, greatest_ratio: 3.0,
-/// };
+/// let settings = HandSettings { safety: 0.5, ..HandSettings::default() };
 /// let error = HandController::new(settings, [FingerLimits::<f64, 1>::none(); 2]).unwrap_err();
 /// assert_eq!(error.to_string(), "the factor of safety must be at least 1 and finite");
 /// ```
@@ -80,6 +82,8 @@ impl<T: Real> HandSettings<T> {
         check(positive(self.at_slip) && self.at_slip < one, "factor at slip", "between 0 and 1")?;
         check(positive(self.least_friction), "least friction coefficient", "positive and finite")?;
         check(positive(self.greatest_ratio), "greatest friction ratio", "positive and finite")?;
+        let recovers = self.recovery >= T::zero() && self.recovery.is_number();
+        check(recovers, "rate of recovery", "finite and not negative")?;
         Ok(self)
     }
 }

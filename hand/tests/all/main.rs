@@ -5,6 +5,7 @@
 mod support;
 
 mod ball;
+mod beliefs;
 mod extremes;
 mod freedoms;
 mod grasps;

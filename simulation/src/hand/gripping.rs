@@ -4,13 +4,12 @@ use fingertip::contact::SoftFinger;
 use fingertip::{Absent, Fingertip, Present};
 use fingertip_friction::{DropDetector, ForceNoise};
 use fingertip_hand::{
-    FingerLimits, FingerSample, Grasp, GraspContact, Hand, HandCommand, HandController, HandSettings,
-    UncertainWrench,
+    ContactFriction, FingerLimits, FingerSample, FingerState, Grasp, Hand, HandCommand, HandController,
+    HandLoad, HandSettings, UncertainWrench,
 };
 use fingertip_surfaces::{SignedDistance, Sphere};
 use fingertip_wrench::{
-    Compensation, ContactForce, DummyGauge, DummyGaugeAccumulator, GaussianElimination, RigidTransform,
-    Sensor, Wrench, WrenchSolver,
+    Compensation, ContactForce, DummyGauge, DummyGaugeAccumulator, GaussianElimination, Wrench, WrenchSolver,
 };
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -60,9 +59,10 @@ impl<const K: usize> Default for GrippingSettings<K> {
 pub struct Felt<const K: usize> {
     /// The wrench on each fingertip, in its own frame.
     pub wrenches: [Wrench<f64>; K],
-    /// The contact of each finger in the frame of the hand, with force and verdict; `None` where it touches nothing.
-    pub fingers: [Option<FingerSample<f64>>; K],
-    /// What the object loads the fingertips with, in the frame of the hand.
+    /// What each finger says, in the frame of the hand.
+    pub fingers: [FingerState<f64>; K],
+    /// The sum of what all sensors feel, in the frame of the hand: what the object loads the fingertips with, if none of
+    /// them is wrong.
     pub load: Wrench<f64, Hand>,
     /// What the controller wants; `None` while the fingers are open or not all have touched yet.
     pub command: Option<HandCommand<f64, K>>,
@@ -110,6 +110,7 @@ type TipPipeline = Fingertip<
 #[derive(Clone, Debug)]
 pub struct GrippingHand<const K: usize> {
     settings: GrippingSettings<K>,
+    friction: [ContactFriction<f64>; K],
     tips: [TipPipeline; K],
     doubts: [Doubt; K],
     controller: HandController<f64, K, 2>,
@@ -141,8 +142,10 @@ impl<const K: usize> GrippingHand<K> {
         for (value, parameter) in positive {
             crate::error::positive(value, parameter)?;
         }
-        for friction in settings.friction {
-            crate::error::positive(friction, "friction coefficient")?;
+        let mut friction = Vec::with_capacity(K);
+        for coefficient in settings.friction {
+            crate::error::positive(coefficient, "friction coefficient")?;
+            friction.push(ContactFriction::soft(coefficient, settings.arm).map_err(bad)?);
         }
         let sensors = &hand.options().sensors;
         let sphere = sensors.design.sphere()?;
@@ -183,6 +186,7 @@ impl<const K: usize> GrippingHand<K> {
         let counted = |_| bad("a finger is missing");
         Ok(Self {
             settings: *settings,
+            friction: friction.try_into().map_err(|_| bad("a finger is missing"))?,
             tips: tips.try_into().map_err(counted)?,
             doubts: doubts.try_into().map_err(|_| bad("a finger is missing"))?,
             controller: HandController::new(settings.hand, [limits; K]).map_err(bad)?,
@@ -220,9 +224,9 @@ impl<const K: usize> GrippingHand<K> {
     /// What a sample says, and what to do.
     pub fn feel(&mut self, sample: &HandSample<K>) -> Felt<K> {
         let mut wrenches = [Wrench::zero(); K];
-        let mut fingers = [None; K];
+        let mut fingers = [FingerState::Free; K];
         let mut loads = [None; K];
-        let each = self.tips.iter_mut().zip(&sample.raw).zip(&sample.tips).zip(self.settings.friction);
+        let each = self.tips.iter_mut().zip(&sample.raw).zip(&sample.tips).zip(&self.friction);
         let answers = wrenches.iter_mut().zip(&mut fingers).zip(&mut loads);
         for ((((tip, raw), pose), friction), ((wrench, finger), load)) in each.zip(answers) {
             let touch = tip.sense(raw, self.time_step);
@@ -231,20 +235,15 @@ impl<const K: usize> GrippingHand<K> {
                 wrench: touch.wrench.expressed_in(pose),
                 covariance: Matrix6::zeros(),
             });
-            let Some(contact) = touch.resolution.contact() else { continue };
-            let force = contact.contact_force();
-            let place = GraspContact::soft(contact.point, contact.normal, friction, self.settings.arm);
-            *finger = place.ok().map(|place| FingerSample {
-                contact: place.expressed_in(pose),
-                force: in_hand(&force, pose),
-                slip: touch.slip,
-            });
+            *finger = touch.finger(friction).expressed_in(pose);
         }
         let load = UncertainWrench::total(&loads).wrench;
-        self.holds = !sample.open && (self.holds || fingers.iter().all(Option::is_some));
-        let command = self.holds.then(|| self.controller.command(&fingers, &load, self.time_step));
+        let touching = fingers.iter().all(|finger| finger.sample().is_some());
+        self.holds = !sample.open && (self.holds || touching);
+        let command =
+            self.holds.then(|| self.controller.command(&fingers, &HandLoad::FromFingers, self.time_step));
         let speeds = match &command {
-            Some(command) => self.squeeze(&fingers, &command.normal, &sample.closed),
+            Some(command) => self.squeeze(&fingers, command, &sample.closed),
             None => self.approach(&fingers, sample),
         };
         Felt { wrenches, fingers, load, command, speeds }
@@ -262,31 +261,36 @@ impl<const K: usize> GrippingHand<K> {
     }
 
     /// Opens, or closes what does not touch yet.
-    fn approach(&self, fingers: &[Option<FingerSample<f64>>; K], sample: &HandSample<K>) -> [f64; K] {
+    fn approach(&self, fingers: &[FingerState<f64>; K], sample: &HandSample<K>) -> [f64; K] {
         let (speed, reach) = (self.settings.approach, self.settings.reach);
         let mut speeds = [0.0; K];
         for ((wanted, finger), closed) in speeds.iter_mut().zip(fingers).zip(sample.closed) {
             *wanted = match finger {
                 _ if sample.open => -(closed / self.time_step).clamp(0.0, speed),
-                None if closed < reach => speed,
+                FingerState::Free if closed < reach => speed,
                 _ => 0.0,
             };
         }
         speeds
     }
 
-    /// Squeezes by what the normal forces lack.
+    /// Squeezes by what the normal forces lack. A finger that is not believed stays where it is.
     fn squeeze(
         &self,
-        fingers: &[Option<FingerSample<f64>>; K],
-        wanted: &[f64; K],
+        fingers: &[FingerState<f64>; K],
+        command: &HandCommand<f64, K>,
         closed: &[f64; K],
     ) -> [f64; K] {
+        let believed = |finger: &FingerState<f64>, implausible: bool| -> Option<FingerSample<f64>> {
+            finger.sample().filter(|_| !implausible).copied()
+        };
         let mut contacts = [None; K];
         let mut lacks = [ContactForce::zero(); K];
-        let each = contacts.iter_mut().zip(&mut lacks).zip(fingers).zip(wanted);
-        for (((contact, lack), finger), wanted) in each {
-            if let Some(finger) = finger {
+        let each = contacts.iter_mut().zip(&mut lacks).zip(fingers);
+        for (((contact, lack), finger), (wanted, implausible)) in
+            each.zip(command.normal.iter().zip(command.implausible))
+        {
+            if let Some(finger) = believed(finger, implausible) {
                 *contact = Some(finger.contact);
                 *lack = ContactForce::new(wanted - finger.force.normal, Vector3::zeros(), 0.0);
             }
@@ -294,21 +298,16 @@ impl<const K: usize> GrippingHand<K> {
         let parts = Grasp::new(contacts).split(&lacks);
         let gain = self.settings.bandwidth / self.settings.stiffness;
         let mut speeds = [0.0; K];
-        for (((speed, finger), part), closed) in
-            speeds.iter_mut().zip(fingers).zip(&parts.internal).zip(closed)
+        for (((speed, finger), part), (contact, closed)) in
+            speeds.iter_mut().zip(fingers).zip(&parts.internal).zip(contacts.iter().zip(closed))
         {
             *speed = match finger {
-                Some(_) => gain * part.normal,
+                _ if contact.is_some() => gain * part.normal,
                 // It has lost the object, and goes after it.
-                None if *closed < self.settings.reach => self.settings.approach,
-                None => 0.0,
+                FingerState::Free if *closed < self.settings.reach => self.settings.approach,
+                _ => 0.0,
             };
         }
         speeds
     }
-}
-
-/// A contact force in the frame of the hand.
-fn in_hand(force: &ContactForce<f64>, pose: &RigidTransform<f64, Hand, Sensor>) -> ContactForce<f64> {
-    ContactForce::new(force.normal, pose.rotate(&force.tangential.vector()), force.spin)
 }

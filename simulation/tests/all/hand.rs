@@ -61,7 +61,7 @@ fn fingertips_at_rest_bear_the_weight_and_nothing_else() {
     assert!(matches!(felt.command.unwrap().state, HandState::Holding));
     // What each finger says of its contact is what is so.
     for (finger, (truth, tip)) in felt.fingers.iter().zip(sample.truth.contacts.iter().zip(&sample.tips)) {
-        let (finger, TrueTouch { point, normal, force }) = (finger.unwrap(), truth.unwrap());
+        let (finger, TrueTouch { point, normal, force }) = (finger.sample().unwrap(), truth.unwrap());
         assert!((finger.contact.place() - tip.transform_point(&point)).norm() < 0.5e-3);
         assert!(finger.contact.normal().dot(&tip.rotate(&normal)) > 0.999);
         assert!((finger.force.normal - force.normal).abs() < 0.03 * force.normal + 0.05);
@@ -239,7 +239,8 @@ fn slip_is_found_within_five_milliseconds_and_answered_in_the_same_sample() {
                 if sample.truth.slipping.contains(&true) {
                     onset.get_or_insert(sample.time);
                 }
-                let called = felt.fingers.iter().flatten().any(|finger| finger.slip == SlipVerdict::Slipping);
+                let mut verdicts = felt.fingers.iter().filter_map(|finger| Some(finger.sample()?.slip));
+                let called = verdicts.any(|slip| slip == SlipVerdict::Slipping);
                 if called && answered.is_none() {
                     answered = Some(sample.time);
                     // New forces at once: as much as the rate of rise allows in a millisecond, on both fingers.
@@ -264,6 +265,59 @@ fn slip_is_found_within_five_milliseconds_and_answered_in_the_same_sample() {
     );
     assert!(late.get() < 5.5e-3, "{} s", late.get());
     assert!(slid.get() < 4e-3, "{} m", slid.get());
+}
+
+/// Three fingers hold 200 g in the air, and for a third of a second the gauges of one of them are wrong by 15 N along
+/// lines that pass its ball by, or graze it: no command rises, and the object stays. As soon as they are right again, the
+/// hand goes on.
+#[test]
+fn a_sensor_that_is_wrong_by_fifteen_newtons_drives_no_finger() {
+    let across = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 30e-3), Vector3::new(0.0, 15.0, 0.0));
+    let along = Wrench::from_force_at(&Vector3::new(0.0, 25e-3, 0.0), Vector3::new(15.0, 0.0, 0.0));
+    let grazing = Wrench::from_force_at(&Vector3::new(-14e-3, 0.0, 0.0), Vector3::new(0.0, 0.0, -15.0));
+    let mut doubted = 0;
+    for (seed, wrong) in (300..).zip([across, along, grazing]) {
+        let script = lift().hold(0.2).hold(0.3).hold(0.3);
+        let mut hand = jar::<3>(0.2, &script, seeded(seed));
+        let matrix = hand.calibrated_matrices()[1];
+        let offset = matrix.signals(&wrong);
+        let (mut rest, mut gripping) = (Vec::new(), None::<GrippingHand<3>>);
+        let (mut before, mut start, mut after) = (None, None, None);
+        while let Some(mut sample) = hand.sample() {
+            if sample.phase == 0 {
+                rest.push(sample);
+                continue;
+            }
+            let gripping = gripping.get_or_insert_with(|| {
+                GrippingHand::new(&hand, &rest, &GrippingSettings::default()).unwrap()
+            });
+            if sample.phase == 4 {
+                sample.raw[1].gauges += offset;
+            }
+            let felt = gripping.feel(&sample);
+            hand.drive(felt.speeds);
+            let Some(command) = felt.command else { continue };
+            match sample.phase {
+                3 => (before, start) = (Some(command.normal), Some(sample.truth.origin)),
+                4 => {
+                    assert_eq!(command.state, HandState::Doubtful, "{wrong:?}");
+                    assert_eq!(
+                        (command.implausible, command.normal),
+                        ([false, true, false], before.unwrap())
+                    );
+                    doubted += 1;
+                    let moved = (sample.truth.origin - start.unwrap()).norm();
+                    assert!(moved < 0.3e-3 && sample.truth.table == 0.0, "{wrong:?}: {moved}");
+                }
+                5 => after = Some(command),
+                _ => {}
+            }
+        }
+        let (before, after) = (before.unwrap(), after.unwrap());
+        assert!(matches!(after.state, HandState::Holding), "{after:?}");
+        assert!(after.normal.iter().zip(before).all(|(a, b)| (a - b).abs() < 1.0), "{after:?} {before:?}");
+    }
+    assert_eq!(doubted, 900);
 }
 
 /// The load on the fingertips of a push on the object.

@@ -4,8 +4,8 @@ use core::ptr;
 
 use fingertip::friction::SlipVerdict;
 use fingertip::hand::{
-    FingerLimits, FingerSample, Grasp, GraspContact, GripOutcome, Hand, HandController, HandSettings,
-    HandState, LeastGrip,
+    FingerLimits, FingerSample, FingerState, Grasp, GraspContact, GripOutcome, Hand, HandController,
+    HandLoad, HandSettings, HandState, LeastGrip,
 };
 use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
 use fingertip_c::{
@@ -84,31 +84,56 @@ fn commands_are_those_of_the_controller() {
     let hand = Held::new(&[LIMIT; 3]);
     let settings = HandSettings::default();
     let mut controller = HandController::<f64, 3, 2>::new(settings, [limits(); 3]).unwrap();
+    let mut before = [0.0; 3];
     for k in 0..60 {
         let mut fingers = [0, 1, 2].map(|index| finger(index, [0.0, 2e-3][usize::from(k >= 20)]));
         if k == 40 {
             fingers[1].slip = ft_slip::FT_SLIPPING as u32;
         }
-        // One whose force cannot be.
-        if k == 50 {
-            fingers[2].normal_force = -1.0;
+        // One whose force cannot be, and one that feels what no contact explains.
+        match k {
+            50 | 51 => fingers[2].normal_force = -1.0,
+            52 | 53 => fingers[2] = ft_finger { touching: 2, point: [f64::NAN; 3], ..fingers[2] },
+            _ => {}
         }
+        let wrong = (50..54).contains(&k);
         let load: ft_wrench =
             written(|to| unsafe { ft_object_wrench(fingers.as_ptr(), 3, to, ptr::null_mut()) }).unwrap();
-        let samples = fingers.each_ref().map(|finger| Some(sample(finger)));
-        let contacts = samples.map(|sample| sample.map(|sample| sample.contact));
-        let sum = Grasp::new(contacts).wrench(&samples.map(|sample| sample.unwrap().force));
+        let states = fingers.each_ref().map(|finger| match finger.touching {
+            2 => FingerState::Unexplained,
+            _ => FingerState::Touching(sample(finger)),
+        });
+        let (grasp, forces) = Grasp::of_fingers(&states);
+        let sum = grasp.wrench(&forces);
         assert!((Vector3::from(load.force) - sum.force()).norm() < 1e-12);
         assert!((Vector3::from(load.torque) - sum.torque()).norm() < 1e-12);
 
         let given = if k % 2 == 0 { ptr::null() } else { &raw const load };
         let order: ft_hand_order =
             written(|to| unsafe { ft_hand_command(hand.0, fingers.as_ptr(), 3, given, 1e-3, to) }).unwrap();
-        let command = controller.command(&samples, &sum, 1e-3);
-        // Two of three do not hold it.
-        assert_eq!(order.state == ft_hand_state::FT_HAND_HOLDING, k != 50);
-        assert_eq!(matches!(command.state, HandState::Holding), k != 50);
-        assert_eq!(order.implausible, if k == 50 { 4 } else { 0 });
+        let known = if given.is_null() { HandLoad::FromFingers } else { HandLoad::Known(sum) };
+        let command = controller.command(&states, &known, 1e-3);
+        // What they feel is doubtful. Two of three do not hold what a third that pulls is part of, but what they feel alone.
+        let state = match k {
+            50 | 52 => ft_hand_state::FT_HAND_DOUBTFUL,
+            51 => ft_hand_state::FT_HAND_CANNOT_HOLD,
+            _ => ft_hand_state::FT_HAND_HOLDING,
+        };
+        let holds = state == ft_hand_state::FT_HAND_HOLDING;
+        assert_eq!(order.state, state, "{k}");
+        assert_eq!(matches!(command.state, HandState::Holding), holds);
+        assert_eq!(order.implausible, if wrong { 4 } else { 0 });
+        if wrong {
+            assert_eq!(order.normal_force[2], before[2]);
+        }
+        if !holds {
+            assert_eq!(order.normal_force[..3], before);
+        }
+        before.copy_from_slice(&order.normal_force[..3]);
+        let grip: ft_grip =
+            written(|to| unsafe { ft_hand_least_grip(hand.0, fingers.as_ptr(), 3, given, to) }).unwrap();
+        let doubtful = grip.state == ft_hand_state::FT_HAND_DOUBTFUL;
+        assert_eq!(doubtful, state == ft_hand_state::FT_HAND_DOUBTFUL);
         for (told, expected) in order.normal_force.iter().zip(command.normal) {
             assert!((told - expected).abs() < 1e-6, "{k}: {told} {expected}");
         }
@@ -198,8 +223,13 @@ fn a_touch_becomes_a_finger_in_the_frame_of_the_hand() {
     assert!((Vector3::from(load.torque) - moved.torque()).norm() < 1e-9);
     assert_eq!((finger.friction, finger.torque_arm), (0.6, 0.002));
 
-    let none = ft_touch { resolution: ft_resolution::FT_MISSES, ..touch };
-    assert_eq!(made(&none).touching, 0);
+    for (resolution, touching) in [
+        (ft_resolution::FT_BELOW_THRESHOLD, 0),
+        (ft_resolution::FT_MISSES, 2),
+        (ft_resolution::FT_NOT_FINITE, 2),
+    ] {
+        assert_eq!(made(&ft_touch { resolution, ..touch }).touching, touching);
+    }
     let mut error = core::mem::MaybeUninit::<ft_error>::uninit();
     let bent = ft_pose { rotation: (Matrix3::<f64>::identity() * 2.0).into(), ..given };
     let status = unsafe {
@@ -226,6 +256,8 @@ fn what_a_hand_cannot_use_is_named() {
     refused(&[finger(0, 0.0), bad, bad], ft_status::FT_BAD_NUMBER, "finger 1: the point or normal");
     let bad = ft_finger { friction: -1.0, ..finger(1, 0.0) };
     refused(&[finger(0, 0.0), finger(1, 0.0), bad], ft_status::FT_BAD_NUMBER, "finger 2: the friction");
+    let bad = ft_finger { touching: 3, ..finger(1, 0.0) };
+    refused(&[finger(0, 0.0), finger(1, 0.0), bad], ft_status::FT_BAD_NUMBER, "`touching` must be 0, 1 or 2");
 
     let create = |settings: fingertip_c::ft_hand_settings, limits: &[ft_finger_limits], says: &str| {
         let mut hand: *mut ft_hand = ptr::null_mut();

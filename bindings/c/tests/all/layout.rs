@@ -67,7 +67,7 @@ fn here() -> Layout {
             state, reserved, normal_force, tangential_force, spin_torque, cost, least_cost, velocity, turning,
         }
         ft_hand_order { state, implausible, normal_force, velocity, turning }
-        ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio }
+        ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery }
         ft_margin { newtons, utilisation }
         ft_motion { gravity, angular_velocity, angular_acceleration }
         ft_pose { rotation, origin }

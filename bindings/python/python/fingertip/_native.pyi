@@ -407,6 +407,7 @@ class HandController:
         at_slip: float = 0.8,
         least_friction: float = 0.1,
         greatest_ratio: float = 3.0,
+        recovery: float = 0.0,
         least: float = 0.3,
         greatest: float | None = None,
     ) -> HandController: ...
@@ -416,7 +417,11 @@ class HandController:
     @staticmethod
     def _from_bytes(bytes: bytes) -> HandController: ...
     def command(
-        self, fingers: Sequence[Mapping[str, Any] | None], load: npt.ArrayLike, time_step: float
+        self,
+        fingers: Sequence[Mapping[str, Any] | str | None],
+        time_step: float,
+        *,
+        load: npt.ArrayLike | None = None,
     ) -> tuple[list[float], bool | None, list[bool]]: ...
     def forget_friction(self) -> None: ...
 
@@ -692,6 +697,9 @@ class Touch:
     def _from_bytes(bytes: bytes) -> Touch: ...
     @property
     def contact(self) -> Contact | None: ...
+    def finger(
+        self, rotation: npt.ArrayLike, origin: npt.ArrayLike, friction: float, arm: float | None = None
+    ) -> dict[str, Any] | str | None: ...
     @property
     def grip_force(self) -> float | None: ...
     @property

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip::hand::{FingerLimits, Hand};
+use fingertip::hand::{ContactFriction, FingerLimits, Hand, HandSettings};
 use fingertip::wrench::{RigidTransform, Sensor};
 use fingertip_calibration::file::read_text;
 use fingertip_scene::{Limit, Scene};
@@ -33,11 +33,13 @@ struct HandFile {
 struct HandSection {
     sensors_in: SensorsIn,
     safety: f64,
+    greatest_ratio: f64,
 }
 
 impl Default for HandSection {
     fn default() -> Self {
-        Self { sensors_in: SensorsIn::Fingers, safety: 1.0 }
+        let greatest_ratio = HandSettings::default().greatest_ratio;
+        Self { sensors_in: SensorsIn::Fingers, safety: 1.0, greatest_ratio }
     }
 }
 
@@ -77,6 +79,7 @@ pub(super) struct HandScene {
     pub(super) name: String,
     pub(super) sensors_in: SensorsIn,
     pub(super) safety: f64,
+    pub(super) greatest_ratio: f64,
     pub(super) fingers: Vec<FingerScene>,
 }
 
@@ -90,9 +93,7 @@ pub(super) struct FingerScene {
     pub(super) pose: RigidTransform<f64, Hand, Sensor>,
     /// The prefix of the columns of its pose, before `_x_m` and the others.
     pub(super) pose_columns: Option<String>,
-    pub(super) friction: f64,
-    /// The torque arm of a soft contact \[m\].
-    pub(super) arm: Option<f64>,
+    pub(super) friction: ContactFriction<f64>,
     pub(super) limits: FingerLimits<f64, 2>,
 }
 
@@ -118,9 +119,12 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<HandScene, CliError> {
     if !(1..=MOST).contains(&file.finger.len()) {
         return Err(bad(format!("has {} [[finger]]; a hand has 1 to {MOST}", file.finger.len())));
     }
-    let HandSection { sensors_in, safety } = file.hand;
+    let HandSection { sensors_in, safety, greatest_ratio } = file.hand;
     if !(safety >= 1.0 && safety.is_finite()) {
         return Err(bad(format!("safety = {safety} of [hand] must be at least 1 and finite")));
+    }
+    if !(greatest_ratio > 0.0 && greatest_ratio.is_finite()) {
+        return Err(bad(format!("greatest_ratio = {greatest_ratio} of [hand] must be positive and finite")));
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut fingers: Vec<FingerScene> = Vec::new();
@@ -137,7 +141,7 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<HandScene, CliError> {
         }
         fingers.push(finger(section, folder, &bad)?);
     }
-    Ok(HandScene { name: file.name, sensors_in, safety, fingers })
+    Ok(HandScene { name: file.name, sensors_in, safety, greatest_ratio, fingers })
 }
 
 fn finger(
@@ -157,10 +161,10 @@ fn finger(
         _ => None,
     };
     let arm = section.arm.or(of_scene);
-    for (value, key) in [(Some(friction), "friction"), (arm, "torque_arm_m")] {
-        if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
-            return Err(named(format!("`{key}` must be positive and finite")));
-        }
+    let must = |key: &str| named(format!("`{key}` must be positive and finite"));
+    let mut friction = ContactFriction::point(friction).map_err(|_| must("friction"))?;
+    if let Some(arm) = arm {
+        friction = friction.with_arm(arm).map_err(|_| must("torque_arm_m"))?;
     }
     let mut limits = FingerLimits::none();
     if let Some(newtons) = section.greatest_normal {
@@ -182,7 +186,7 @@ fn finger(
     let pose = RigidTransform::from_axis_angle(rotation, section.translation.into())
         .map_err(|_| named("`translation_m` and `rotation_deg` must be finite".to_owned()))?;
     let (sensor, pose_columns) = (section.sensor, section.pose_columns);
-    Ok(FingerScene { name, path, scene, sensor, pose, pose_columns, friction, arm, limits })
+    Ok(FingerScene { name, path, scene, sensor, pose, pose_columns, friction, limits })
 }
 
 #[cfg(test)]
@@ -227,11 +231,8 @@ mod tests {
                 Ok(hand) => {
                     read += 1;
                     assert!((1..=super::MOST).contains(&hand.fingers.len()) && hand.safety >= 1.0);
-                    assert!(
-                        hand.fingers
-                            .iter()
-                            .all(|finger| finger.friction > 0.0 && finger.friction.is_finite())
-                    );
+                    assert!(hand.fingers.iter().all(|finger| finger.friction.coefficient() > 0.0
+                        && finger.friction.coefficient().is_finite()));
                 }
                 Err(error) => {
                     refused += 1;

@@ -1,15 +1,14 @@
 //! What a row says of all fingers together.
 
-use fingertip::hand::{FingerLimits, Grasp, GraspContact, GripOutcome, Hand, LeastGrip};
+use fingertip::hand::{FingerLimits, FingerState, Grasp, GraspContact, GripOutcome, Hand, LeastGrip};
 use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
 use fingertip_scene::Felt;
 
-use super::file::{FingerScene, MOST, SensorsIn};
+use super::file::{FingerScene, HandScene, MOST, SensorsIn};
 
 /// What the fingers feel in a row, in the frame of the hand.
 pub(super) struct Fingers {
-    contacts: [Option<GraspContact<f64>>; MOST],
-    forces: [ContactForce<f64>; MOST],
+    fingers: [FingerState<f64>; MOST],
     load: Wrench<f64, Hand>,
 }
 
@@ -32,7 +31,7 @@ pub(super) struct Grasped {
 
 impl Fingers {
     pub(super) fn none() -> Self {
-        Self { contacts: [None; MOST], forces: [ContactForce::zero(); MOST], load: Wrench::zero() }
+        Self { fingers: [FingerState::Free; MOST], load: Wrench::zero() }
     }
 
     /// Takes in what a finger feels, with its pose in the hand. A sensor in the object feels what the finger does to
@@ -45,44 +44,42 @@ impl Fingers {
         pose: &RigidTransform<f64, Hand, Sensor>,
         felt: &Felt<f64>,
     ) {
-        let sign = if sensors_in == SensorsIn::Fingers { 1.0 } else { -1.0 };
         let wrench = felt.touch.wrench.expressed_in(pose);
-        self.load = self.load + Wrench::on_fingertip(wrench.force() * sign, wrench.torque() * sign);
-        let Some(contact) = felt.contact() else { return };
-        let force = contact.contact_force();
-        let (point, normal) = (contact.point, contact.normal * sign);
-        let place = match finger.arm {
-            Some(arm) => GraspContact::soft(point, normal, finger.friction, arm),
-            None => GraspContact::point(point, normal, finger.friction),
+        let told = felt.touch.finger(&finger.friction).expressed_in(pose);
+        let (wrench, told) = match sensors_in {
+            SensorsIn::Fingers => (wrench, told),
+            SensorsIn::Object => (-wrench, told.reversed()),
         };
-        let Ok(place) = place else { return };
-        if let (Some(to), Some(of)) = (self.contacts.get_mut(index), self.forces.get_mut(index)) {
-            *to = Some(place.expressed_in(pose));
-            // A torque about the normal keeps its sign where both are reversed.
-            *of =
-                ContactForce::new(force.normal, pose.rotate(&(force.tangential.vector() * sign)), force.spin);
+        self.load = self.load + wrench;
+        if let Some(to) = self.fingers.get_mut(index) {
+            *to = told;
         }
     }
 }
 
 impl Grasped {
-    /// The program starts from the last row's solution.
+    /// The program starts from the last row's solution. Where a finger says what cannot be, what the others are to bear is
+    /// not known, and the least grip is not asked for.
     pub(super) fn of(
         fingers: Fingers,
         limits: &[FingerLimits<f64, 2>; MOST],
-        safety: f64,
+        scene: &HandScene,
         program: &mut LeastGrip<f64, MOST, 2>,
     ) -> Self {
-        let Fingers { contacts, forces, load } = fingers;
-        let grasp = Grasp::new(contacts);
+        let Fingers { fingers, load } = fingers;
+        let (grasp, forces) = Grasp::of_fingers(&fingers);
+        let contacts = *grasp.contacts();
         let margins = grasp.slip_margins(&forces).map(|margin| margin.map(|margin| margin.newtons));
         let touching = |forces: &[ContactForce<f64>; MOST]| -> f64 {
             forces.iter().zip(&contacts).filter_map(|(f, contact)| contact.map(|_| f.normal)).sum()
         };
         let (grip, squeeze) = (touching(&forces), touching(&grasp.split(&forces).internal));
         // A safety that leaves no friction leaves no contact: it was checked, and friction is not that small.
-        let careful = contacts.map(|contact| contact.and_then(|contact| contact.with_safety(safety).ok()));
-        let (least, held) = if grasp.touching() == 0 {
+        let careful =
+            contacts.map(|contact| contact.and_then(|contact| contact.with_safety(scene.safety).ok()));
+        let (least, held) = if !fingers.iter().all(|finger| finger.is_plausible(scene.greatest_ratio)) {
+            (None, "doubtful")
+        } else if grasp.touching() == 0 {
             (None, "")
         } else {
             match program.solve(&Grasp::new(careful), limits, &load) {

@@ -203,7 +203,7 @@ fn read(
             Place::Behind => break,
             Place::Within => {}
         }
-        let grasped = whole.then(|| Grasped::of(fingers, &limits, scene.safety, &mut program));
+        let grasped = whole.then(|| Grasped::of(fingers, &limits, scene, &mut program));
         writer.write(time, &statuses, grasped.as_ref())?;
         seen.add(time, grasped.as_ref());
     }

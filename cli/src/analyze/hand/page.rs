@@ -28,6 +28,8 @@ pub(super) struct Seen {
     held: u64,
     not_held: u64,
     undecided: u64,
+    /// A finger feels what cannot be.
+    doubtful: u64,
     unusable: u64,
     /// Of the rows where any finger touches: grip, squeeze, least grip, load, margin \[N\].
     spread: [Quantiles; 5],
@@ -49,6 +51,7 @@ impl Seen {
             held: 0,
             not_held: 0,
             undecided: 0,
+            doubtful: 0,
             unusable: 0,
             spread: Default::default(),
             trace: Trace::default(),
@@ -79,6 +82,7 @@ impl Seen {
         }
         let load = grasped.load.force().norm();
         let (margin, least) = (grasped.least_margin(), grasped.least.map(|(sum, _)| sum));
+        self.doubtful += u64::from(grasped.held == "doubtful");
         if touching > 0 {
             match grasped.held {
                 "held" => self.held += 1,
@@ -140,6 +144,13 @@ impl Seen {
              and places are in the frame of the hand"
                 .to_owned(),
         );
+        if self.doubtful > 0 {
+            notes.push(format!(
+                "{} rows are doubtful: a finger feels a force that no contact explains, or more friction than there is, so what \
+                 the others are to bear is not known",
+                count(self.doubtful)
+            ));
+        }
         if self.unusable > 0 {
             notes.push(format!(
                 "{} rows are rest or repeat the row before, or lack a sensor or a pose",

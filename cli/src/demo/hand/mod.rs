@@ -5,7 +5,6 @@ mod findings;
 
 use fingertip::friction::{FrictionModel, SlipMargin, SlipVerdict, SoftFingerLimit};
 use fingertip::hand::{Grasp, HandState, ObjectWeight};
-use fingertip::wrench::ContactForce;
 use fingertip_simulation::hand::{
     Felt, GrippingHand, GrippingSettings, HandSample, HandSegment, Weighing, play_standard_hand,
     standard_hand,
@@ -92,10 +91,13 @@ fn play(seed: u64) -> Result<Outcome, CliError> {
         moments.push(Moment {
             time: sample.time,
             commanded: felt.command.map(|command| command.normal),
-            felt: felt.fingers.map(|finger| finger.map_or(0.0, |finger| finger.force.normal)),
+            felt: felt.fingers.map(|finger| finger.sample().map_or(0.0, |sample| sample.force.normal)),
             left: felt.command.and_then(|_| left(sample, felt, &settings, &frictions)),
             slip: (
-                felt.fingers.iter().flatten().any(|finger| finger.slip == SlipVerdict::Slipping),
+                felt.fingers
+                    .iter()
+                    .filter_map(|finger| Some(finger.sample()?.slip))
+                    .any(|slip| slip == SlipVerdict::Slipping),
                 sample.truth.slipping.contains(&true),
             ),
             moved,
@@ -115,9 +117,8 @@ fn left(
     frictions: &[f64; FINGERS],
 ) -> Option<(f64, f64)> {
     let unused = |margin: SlipMargin<f64>| 1.0 - margin.utilisation;
-    let contacts = felt.fingers.map(|finger| finger.map(|finger| finger.contact));
-    let forces = felt.fingers.map(|finger| finger.map_or_else(ContactForce::zero, |finger| finger.force));
-    let felt = Grasp::new(contacts).least_slip_margin(&forces).map(unused)?;
+    let (grasp, forces) = Grasp::of_fingers(&felt.fingers);
+    let felt = grasp.least_slip_margin(&forces).map(unused)?;
     let mut truth = f64::INFINITY;
     for (contact, friction) in sample.truth.contacts.iter().zip(frictions) {
         let limit = SoftFingerLimit::new(*friction, settings.arm).ok()?;

@@ -13,6 +13,7 @@ pub mod exported_cylinder;
 #[path = "../../../../scene/tests/all/exported/paper_sphere_f32.rs"]
 pub mod exported_sphere;
 mod felt;
+mod grips;
 mod scene_a;
 mod scene_b;
 mod scene_c;
@@ -26,6 +27,7 @@ use fingertip::wrench::{SensorMatrix, Tare, TareAccumulator};
 use nalgebra::{SMatrix, SVector, Vector6};
 
 pub use felt::{Felt, Spread, Words, fold};
+pub use grips::{FINGERS, GripLoad, Grips, Outcome as GripOutcome};
 pub use scene_a::SceneA;
 pub use scene_b::SceneB;
 pub use scene_c::{Estimate, SceneC};

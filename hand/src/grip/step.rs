@@ -1,0 +1,159 @@
+//! One interior-point step: predictor and corrector (Mehrotra 1992), with one factorisation.
+
+use fingertip_wrench::Real;
+use nalgebra::{Matrix6, Vector6};
+
+use crate::grip::cholesky::Cholesky;
+use crate::grip::iterate::{Each, Iterate};
+use crate::grip::program::{Missing, Program};
+use crate::grip::scaled::Scaled;
+
+/// What a step works with: kept from step to step, so that nothing is moved.
+pub(crate) struct Workspace<T: Real, const N: usize, const ROWS: usize> {
+    scaled: Each<Option<Scaled<T, ROWS>>, N>,
+}
+
+/// The equations of a step, factored at an iterate.
+struct System<'a, T: Real, const N: usize, const ROWS: usize> {
+    program: &'a Program<T, N, ROWS>,
+    missing: &'a Missing<T, N, ROWS>,
+    scaled: &'a mut Each<Option<Scaled<T, ROWS>>, N>,
+    cholesky: Cholesky<T>,
+    at: (T, T),
+    /// The twist for one of `τ`, and what is left of the equation of `τ` then.
+    twist: Vector6<T>,
+    pivot: T,
+}
+
+/// Where an iterate goes, but for its blocks, which know it themselves.
+struct Direction<T: Real> {
+    twist: Vector6<T>,
+    tau: T,
+    kappa: T,
+}
+
+impl<T: Real, const N: usize, const ROWS: usize> Workspace<T, N, ROWS> {
+    pub(crate) fn new(program: &Program<T, N, ROWS>) -> Self {
+        let mut scaled: Each<_, N> = Each::all(None);
+        scaled.change_with(&program.blocks, |scaled, block| {
+            if block.is_some() {
+                *scaled = Some(Scaled::none());
+            }
+        });
+        Self { scaled }
+    }
+}
+
+impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {
+    fn new(
+        program: &'a Program<T, N, ROWS>,
+        at: &Iterate<T, N, ROWS>,
+        missing: &'a Missing<T, N, ROWS>,
+        scaled: &'a mut Each<Option<Scaled<T, ROWS>>, N>,
+    ) -> Self {
+        let (mut sum, mut right) = (Matrix6::zeros(), program.wrench);
+        let given = (&program.blocks, &at.blocks, &missing.blocks);
+        scaled.change_with_three(given, |scaled, block, at, residual| {
+            if let (Some(block), Some(scaled)) = (block, scaled) {
+                scaled.factor(block, at, residual, &mut sum);
+                scaled.ask_of_tau(&mut right);
+            }
+        });
+        let cholesky = Cholesky::new(&sum);
+        let twist = cholesky.solve(&right);
+        let (mut pivot, mut left) = (at.kappa / at.tau, program.wrench);
+        scaled.iter_mut().flatten().for_each(|scaled| pivot += scaled.solve_tau(&twist, &mut left));
+        // What the twist does not solve: nothing but rounding, but all there is where no contact can push.
+        pivot += left.dot(&twist);
+        Self { program, missing, scaled, cholesky, at: (at.tau, at.kappa), twist, pivot }
+    }
+
+    /// Every block that is there.
+    #[inline(always)]
+    fn each(&mut self, visit: impl FnMut(&mut Scaled<T, ROWS>)) {
+        self.scaled.iter_mut().flatten().for_each(visit);
+    }
+
+    /// The direction towards the targets of the blocks, with `keep` of the residuals to go. Where it is `refined`, the
+    /// equilibrium of its forces is solved for once more.
+    fn direction(&mut self, of_tau: T, keep: T, refined: bool) -> Direction<T> {
+        let (missing, wrench) = (self.missing, &self.program.wrench);
+        let (tau_now, kappa_now) = self.at;
+        let mut right = missing.equilibrium * -keep;
+        let mut last = of_tau / tau_now - missing.of_tau * keep;
+        self.each(|block| last += block.ask(keep, &mut right));
+        let mut twist = self.cholesky.solve(&right);
+        last -= wrench.dot(&twist);
+        self.each(|block| last += block.pull(&twist));
+        let tau = last / self.pivot;
+        twist += self.twist * tau;
+        if refined {
+            let mut left = wrench * tau - missing.equilibrium * keep;
+            self.each(|block| {
+                block.go_with_tau(tau);
+                block.take_wrench(&mut left);
+            });
+            let more = self.cholesky.solve(&left);
+            twist += more;
+            self.each(|block| {
+                block.pull(&more);
+                block.arrive(keep, tau);
+            });
+        } else {
+            self.each(|block| {
+                block.go_with_tau(tau);
+                block.arrive(keep, tau);
+            });
+        }
+        Direction { twist, tau, kappa: (of_tau - kappa_now * tau) / tau_now }
+    }
+
+    fn greatest_step(&mut self, along: &Direction<T>, most: T) -> T {
+        let mut step = most;
+        let (tau, kappa) = self.at;
+        for (x, d) in [(tau, along.tau), (kappa, along.kappa)] {
+            if x + d * step < T::zero() {
+                step = step.min(-x / d);
+            }
+        }
+        self.each(|block| step = block.greatest_step(step));
+        step
+    }
+}
+
+impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
+    /// One step of predictor and corrector from an iterate, of which it is known what it misses; of that, what is left of
+    /// the blocks' equations. `false`, and nothing changed, if the step leads nowhere.
+    pub(crate) fn step(
+        &self,
+        at: &mut Iterate<T, N, ROWS>,
+        missing: &mut Missing<T, N, ROWS>,
+        work: &mut Workspace<T, N, ROWS>,
+    ) -> bool {
+        let mut system = System::new(self, at, missing, &mut work.scaled);
+        let (one, gap) = (T::one(), at.tau * at.kappa);
+        system.each(Scaled::predict);
+        let predicted = system.direction(-gap, one, false);
+        let left = one - system.greatest_step(&predicted, one);
+        let sigma = left * left * left;
+        let (centre, keep) = (sigma * missing.complementarity, one - sigma);
+        system.each(|block| block.correct(centre));
+        let along = system.direction(centre - gap - predicted.tau * predicted.kappa, keep, true);
+        let most = T::literal(2.0);
+        let step = (system.greatest_step(&along, most) * T::literal(0.99)).min(one);
+        if !(step > T::literal(1e-6)) {
+            return false;
+        }
+        let against = (&-along.twist, along.tau);
+        let given = (&self.blocks, &work.scaled);
+        at.blocks.change_both_with_two(&mut missing.blocks, given, |at, residual, block, scaled| {
+            if let (Some(block), Some(scaled)) = (block, scaled) {
+                scaled.advance(block, at, residual, (keep, step), against);
+            }
+        });
+        at.twist += along.twist * step;
+        at.tau += along.tau * step;
+        at.kappa += along.kappa * step;
+        true
+    }
+}
