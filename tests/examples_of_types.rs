@@ -2,7 +2,7 @@
 //!
 //! A plain walk through the text, from each library's `lib.rs`. A type is public if it is in public modules, or
 //! if a `pub use` names it.
-#![allow(clippy::unwrap_used, reason = "helpers of tests, which may fail so")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests, which may fail so")]
 
 extern crate alloc;
 

@@ -22,7 +22,7 @@ fn check(plain: &DMatrix<f64>) {
         let gauges = file.gauges();
         let sizes = if matrix == PlainMatrix::LoadPerSignal { (6, gauges) } else { (gauges, 6) };
         assert_eq!(plain.shape(), sizes);
-        let _ = file.load(&DVector::from_element(gauges, 1.0).as_slice());
+        let _ = file.load(DVector::from_element(gauges, 1.0).as_slice());
     }
 }
 
