@@ -7,7 +7,22 @@ use crate::Hand;
 
 /// Forces that hold a load, and how near they are to the least that do.
 ///
-/// [`LeastGrip`](crate::LeastGrip) has an example.
+/// ```
+/// use fingertip_hand::{FingerLimits, Grasp, GraspContact, LeastGrip};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let left = GraspContact::<f64>::soft(Vector3::new(-0.02, 0.0, 0.0), Vector3::x(), 0.5, 3e-3)?;
+/// let right = GraspContact::soft(Vector3::new(0.02, 0.0, 0.0), -Vector3::x(), 0.5, 3e-3)?;
+/// let grasp = Grasp::new([Some(left), Some(right)]);
+/// let weight = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+/// let outcome = LeastGrip::new().solve(&grasp, &[FingerLimits::<f64, 1>::none(); 2], &weight);
+/// let grip = outcome.grip().ok_or("it holds")?;
+/// // Friction 0.5 bears 2 N on two fingers that press with 2 N each.
+/// assert!(grip.forces.iter().all(|force| (force.normal - 2.0).abs() < 1e-6));
+/// assert!(grip.gap() < 1e-6 && grip.imbalance.force().norm() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grip<T: Real, const N: usize, F: Frame = Hand> {
     /// What each finger should feel: the force of the object on the fingertip. Zero for a finger that does not touch.
@@ -37,6 +52,21 @@ impl<T: Real, const N: usize, F: Frame> Grip<T, N, F> {
 ///
 /// For every wrench `w` that the fingers can bear within friction and limits, `power(w)` along the motion is at most
 /// that of the limits, and the load's is greater (`docs/theory/hand.md#the-certificate`).
+///
+/// ```
+/// use fingertip_hand::{FingerLimits, Grasp, GraspContact, GripOutcome, LeastGrip};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // One finger from below: nothing keeps the object from going up.
+/// let below = GraspContact::<f64>::soft(Vector3::zeros(), Vector3::z(), 0.5, 3e-3)?;
+/// let pull = Wrench::on_fingertip(Vector3::new(0.0, 0.0, 3.0), Vector3::zeros());
+/// let outcome = LeastGrip::new().solve(&Grasp::new([Some(below)]), &[FingerLimits::<f64, 1>::none()], &pull);
+/// let GripOutcome::CannotHold(why) = outcome else { panic!() };
+/// assert!(why.velocity.z > 0.0);
+/// assert!((why.power(&pull) - why.excess).abs() < 1e-9); // the finger takes up nothing
+/// # Ok::<(), fingertip_hand::BadContact>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CannotHold<T: Real, F: Frame = Hand> {
     /// Velocity \[m/s\], at the origin of the frame, of the motion by which the object will go; only the direction
@@ -63,6 +93,23 @@ impl<T: Real, F: Frame> CannotHold<T, F> {
 }
 
 /// What came of looking for the least grip.
+///
+/// ```
+/// use fingertip_hand::{FingerLimits, Grasp, GraspContact, GripOutcome, LeastGrip};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let below = GraspContact::<f64>::soft(Vector3::zeros(), Vector3::z(), 0.5, 3e-3)?;
+/// let solve = |newtons: f64| {
+///     let load = Wrench::on_fingertip(Vector3::new(0.0, 0.0, newtons), Vector3::zeros());
+///     LeastGrip::new().solve(&Grasp::new([Some(below)]), &[FingerLimits::<f64, 1>::none()], &load)
+/// };
+/// // It lies on the finger; it is pulled off; a sensor says nonsense.
+/// assert!(matches!(solve(-3.0), GripOutcome::Held(grip) if (grip.forces[0].normal - 3.0).abs() < 1e-6));
+/// assert!(matches!(solve(3.0), GripOutcome::CannotHold(_)));
+/// assert_eq!(solve(f64::NAN), GripOutcome::NotFinite);
+/// # Ok::<(), fingertip_hand::BadContact>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GripOutcome<T: Real, const N: usize, F: Frame = Hand> {
     /// These forces hold.

@@ -7,6 +7,24 @@ use crate::UncertainWrench;
 use crate::triangle::add_row;
 
 /// Mass and centre of mass, with how sure they are.
+///
+/// ```
+/// use fingertip_hand::{Hand, ObjectWeight, UncertainWrench};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix6, Vector3};
+///
+/// let covariance = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let mut weight = ObjectWeight::<f64>::new();
+/// // 100 g, 20 mm above the origin, upright and then a little tilted: its height is known less well than its place aside.
+/// for gravity in [Vector3::new(0.0, 0.0, -9.81), Vector3::new(1.0, 1.0, -9.7)] {
+///     let wrench = Wrench::<f64, Hand>::from_force_at(&Vector3::new(0.0, 0.0, 0.02), gravity * 0.1);
+///     weight.observe(&UncertainWrench { wrench, covariance }, &gravity);
+/// }
+/// let found = weight.estimate().ok_or("tilted once")?;
+/// assert!((found.mass - 0.1).abs() < 1e-12 && (found.centre.z - 0.02).abs() < 1e-12);
+/// assert!(found.centre_covariance.m33 > 20.0 * found.centre_covariance.m11);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

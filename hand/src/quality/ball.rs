@@ -40,6 +40,24 @@ impl<T: Real> Metric<T> {
 }
 
 /// The radius of the greatest ball of wrenches that a grasp can bear for an effort of 1 N, between bounds.
+///
+/// ```
+/// use fingertip_hand::{Grasp, GraspContact, Metric};
+/// use nalgebra::Vector3;
+///
+/// // A ball between three fingers; then without the third.
+/// let contact = |turn: f64| {
+///     let inward = -Vector3::new(turn.cos(), turn.sin(), 0.0);
+///     GraspContact::<f64>::soft(inward * -0.03, inward, 0.6, 3e-3)
+/// };
+/// let [a, b, c] = [contact(0.0)?, contact(2.1)?, contact(4.2)?].map(Some);
+/// let quality = |fingers| Grasp::new(fingers).ball(Metric::Each { length: 0.03 }).expect("a length");
+/// let three = quality([a, b, c]);
+/// assert!(0.0 < three.certified && three.certified <= three.found);
+/// // Without one of them it bears far less.
+/// assert!(quality([a, b, None]).found < 0.2 * three.found);
+/// # Ok::<(), fingertip_hand::BadContact>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GraspBall<T: Real, F: Frame> {
     /// The radius is at least this \[N\]: certified, from what the grasp bears along six axes, both ways.

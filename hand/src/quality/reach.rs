@@ -7,6 +7,22 @@ use crate::grip::{Assembled, Block, Ending, Iterate, Stop, assemble};
 use crate::{FingerLimits, Grasp};
 
 /// How far a load can grow in a direction before no forces hold it.
+///
+/// ```
+/// use fingertip_hand::{FingerLimits, Grasp, GraspContact, Reach};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let below = GraspContact::<f64>::soft(Vector3::zeros(), Vector3::z(), 0.5, 3e-3)?;
+/// let grasp = Grasp::new([Some(below)]);
+/// let force = |x: f64, z: f64| Wrench::on_fingertip(Vector3::new(x, 0.0, z), Vector3::zeros());
+/// let reach = |load, more| grasp.reach(&[FingerLimits::<f64, 1>::none()], &load, &more);
+/// // What lies on a finger with 2 N can be pushed aside with half of that, and be loaded without end.
+/// assert!(matches!(reach(force(0.0, -2.0), force(1.0, 0.0)), Reach::Times(most) if (most - 1.0).abs() < 1e-5));
+/// assert_eq!(reach(force(0.0, -2.0), force(0.0, -1.0)), Reach::Unlimited);
+/// assert_eq!(reach(force(0.0, 2.0), force(1.0, 0.0)), Reach::NotHeld);
+/// # Ok::<(), fingertip_hand::BadContact>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach<T> {
     /// This many times the disturbance, and no more.

@@ -8,6 +8,26 @@ use crate::{
 };
 
 /// What the commands rest on.
+///
+/// ```
+/// use fingertip_friction::SlipVerdict;
+/// use fingertip_hand::*;
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let touching = |x: f64| {
+///     let contact = GraspContact::<f64, Hand>::soft(Vector3::x() * x, -Vector3::x() * x, 0.6, 3e-3)?;
+///     let force = ContactForce::new(3.0, -Vector3::z(), 0.0);
+///     Ok::<_, BadContact>(FingerState::Touching(FingerSample { contact, force, slip: SlipVerdict::Holding }))
+/// };
+/// let mut hand = HandController::new(HandSettings::default(), [FingerLimits::<f64, 2>::none(); 2])?;
+/// let mut state = |fingers| hand.command(&fingers, &HandLoad::FromFingers, 1e-3).state;
+/// assert_eq!(state([touching(-0.02)?, touching(0.02)?]), HandState::Holding);
+/// // One sensor says what cannot be; then nothing is felt at all.
+/// assert_eq!(state([touching(-0.02)?, FingerState::Unexplained]), HandState::Doubtful);
+/// assert_eq!(state([FingerState::Free, FingerState::Free]), HandState::Blind);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HandState<T: Real, F: Frame = Hand> {
     /// The least grip for the load.
@@ -24,6 +44,19 @@ pub enum HandState<T: Real, F: Frame = Hand> {
 }
 
 /// Normal forces to command.
+///
+/// ```
+/// use fingertip_hand::{FingerLimits, FingerState, HandController, HandLoad, HandSettings, HandState};
+///
+/// let limits = FingerLimits::<f64, 2>::none().with_least_normal(0.2)?;
+/// let mut hand = HandController::new(HandSettings::default(), [limits; 2])?;
+/// let fingers: [FingerState<f64>; 2] = [FingerState::Free, FingerState::Unexplained];
+/// let command = hand.command(&fingers, &HandLoad::FromFingers, 1e-3);
+/// // Nothing drives the fingers: they keep to their least force. The second one is named.
+/// assert_eq!(command.normal, [0.2, 0.2]);
+/// assert_eq!((command.implausible, command.state), ([false, true], HandState::Blind));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
     /// For each finger \[N\].
@@ -46,7 +79,7 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 /// ```
 /// use fingertip_friction::SlipVerdict;
 /// use fingertip_hand::{
-///     FingerLimits, FingerSample, FingerState, GraspContact, HandController, HandLoad, HandSettings,
+///     FingerLimits, FingerSample, FingerState, GraspContact, Hand, HandController, HandLoad, HandSettings,
 /// };
 /// use fingertip_wrench::ContactForce;
 /// use nalgebra::Vector3;
@@ -57,7 +90,7 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 ///
 /// // Each feels half of the 200 g that they hold.
 /// let finger = |x: f64, slip| {
-///     let contact = GraspContact::soft(Vector3::x() * x, -Vector3::x() * x, 0.6, 3e-3)?;
+///     let contact = GraspContact::<_, Hand>::soft(Vector3::x() * x, -Vector3::x() * x, 0.6, 3e-3)?;
 ///     let force = ContactForce::new(3.0, -Vector3::z() * 0.98, 0.0);
 ///     Ok::<_, fingertip_hand::BadContact>(FingerState::Touching(FingerSample { contact, force, slip }))
 /// };

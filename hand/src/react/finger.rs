@@ -6,6 +6,22 @@ use fingertip_wrench::{ContactForce, Frame, Real, RigidTransform, Wrench};
 use crate::{GraspContact, Hand};
 
 /// A contact of a finger in one sample.
+///
+/// ```
+/// use fingertip_friction::SlipVerdict;
+/// use fingertip_hand::{FingerSample, GraspContact, Hand};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let contact = GraspContact::<f64, Hand>::point(-Vector3::x() * 0.02, Vector3::x(), 0.6)?;
+/// let force = ContactForce::new(2.0, Vector3::z() * -1.0, 0.0);
+/// let sample = FingerSample { contact, force, slip: SlipVerdict::Holding };
+/// // What the object does to the fingertip: it presses outward, and its weight hangs on it.
+/// let wrench = sample.wrench();
+/// assert_eq!(wrench.force().z, -1.0);
+/// assert!(sample.is_plausible(3.0) && !sample.is_plausible(0.4));
+/// # Ok::<(), fingertip_hand::BadContact>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FingerSample<T: Real, F: Frame = Hand> {
     /// Where it touches, with the friction coefficient as far as it is known (a low quantile, not the mean).
@@ -142,6 +158,17 @@ impl<T: Real, F: Frame> FingerSample<T, F> {
 /// Where a controller has the load from: what the object hands on to the fingertips together.
 ///
 /// A sensor that is wrong must not drive the other fingers, so it matters whether its reading is part of the load.
+///
+/// ```
+/// use fingertip_hand::{FingerState, HandLoad};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let fingers = [FingerState::Free, FingerState::Unexplained];
+/// let weight = Wrench::on_fingertip(Vector3::z() * -1.96, Vector3::zeros());
+/// assert!(HandLoad::<f64>::FromFingers.wrench(&fingers, 3.0).is_none());
+/// assert_eq!(HandLoad::Known(weight).wrench(&fingers, 3.0), Some(weight));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum HandLoad<T: Real, F: Frame = Hand> {
     /// The sum of what the fingers feel, of those that can be believed. While there is one that cannot, what it bears is
