@@ -111,6 +111,25 @@ impl PayloadSection {
 /// A zero taken with the body on holds its weight as it then hung: a rest says how, by
 /// [`rest`](Self::rest) and [`end_rest`](Self::end_rest), and only what changed since is taken off. Without a rest the
 /// bias of the payload's file is.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::{Motion, Wrench};
+/// use fingertip_scene::Scene;
+/// use nalgebra::Vector3;
+///
+/// // 100 g hang on the sensor, 20 mm out.
+/// let payload = "[payload]\nmass_kg = 0.1\ncentre_of_mass_m = [0.0, 0.0, 0.02]\n";
+/// let scene = Scene::from_text(&format!("{BALL}{payload}"))?;
+/// let carried = scene.carried().ok_or("it carries something")?;
+/// // The sensor lies on its side: the quaternion turns it by 90° about y.
+/// let half = 0.5_f64.sqrt();
+/// let gravity = carried.gravity([0.0, half, 0.0, half]).ok_or("an orientation")?;
+/// let weight = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.02), gravity * 0.1);
+/// let left = carried.take_off(&weight, &Motion::resting(gravity));
+/// assert!(left.force().norm() < 1e-12 && left.torque().norm() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Carried<T: Real> {
     /// Gravity, and how the sensor sits on the flange.

@@ -57,6 +57,19 @@ impl EstimateSection {
 
 /// Learns both coefficients: the static one from the peak before each slip, the kinetic one for a while from there
 /// on, for which the fingertip is taken to slide.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::Scene;
+///
+/// // It needs a detector that tells when it slips.
+/// let slip = "[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n";
+/// let scene = Scene::from_text(&format!("{BALL}{slip}[estimate]\nnoise_N = 0.01\n"))?;
+/// assert!(scene.tells().friction);
+/// let refused = Scene::from_text(&format!("{BALL}[estimate]\nnoise_N = 0.01\n")).unwrap_err();
+/// assert!(refused.to_string().contains("[slip]"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate<T: Real> {
     at_rest: StaticFriction<T>,
@@ -67,6 +80,26 @@ pub struct Estimate<T: Real> {
 }
 
 /// What is known of the friction so far.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::Scene;
+/// use nalgebra::Vector3;
+///
+/// let rest = "[slip]\ndetector = \"drop\"\nnoise_N = 0.005\n[estimate]\nnoise_N = 0.005\n";
+/// let mut pipeline = Scene::from_text(&format!("{BALL}{rest}"))?.pipeline();
+/// // It is pushed aside more and more, holds up to 0.6 of the normal force, and slips at 0.4.
+/// for sample in 0..500 {
+///     let ratio = if sample < 400 { 0.0015 * f64::from(sample) } else { 0.4 };
+///     let push = Vector3::new(2.0 * ratio, 0.0, -2.0);
+///     pipeline.sense(Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), push), 1e-3);
+/// }
+/// let learnt = pipeline.felt().friction.ok_or("it learns")?;
+/// let at_rest = learnt.at_rest.ok_or("it slipped once")?;
+/// assert!((at_rest.coefficient - 0.6).abs() < 0.02, "{at_rest:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Learnt<T: Real> {

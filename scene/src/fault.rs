@@ -17,6 +17,14 @@ use crate::urdf::BadUrdf;
 pub const VERSION: u32 = 2;
 
 /// A scene that is not as it must be: in which file, on which line, what, and how to mend it.
+///
+/// ```
+/// use fingertip_scene::{Scene, SceneError};
+///
+/// let refused = Scene::load("no-such-scene.toml").unwrap_err();
+/// assert!(matches!(refused, SceneError::Unreadable { .. }));
+/// assert!(refused.to_string().starts_with("cannot read the scene no-such-scene.toml: "));
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -48,6 +56,17 @@ impl core::fmt::Display for Line {
 }
 
 /// What is wrong, and on which line, if that is known.
+///
+/// ```
+/// use std::path::Path;
+///
+/// use fingertip_scene::Scene;
+///
+/// let text = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_mm = 13\n";
+/// let fault = Scene::parse(text, "ball", Path::new(".")).unwrap_err();
+/// assert_eq!(fault.line, Some(4));
+/// assert!(fault.problem.to_string().contains("radius_m"));
+/// ```
 #[derive(Debug)]
 pub struct SceneFault {
     /// Counted from 1.
@@ -63,6 +82,14 @@ impl From<SceneProblem> for SceneFault {
 }
 
 /// What is wrong. Each message names the key that the user wrote or has to write.
+///
+/// ```
+/// use fingertip_scene::{Scene, SceneProblem};
+///
+/// let refused = Scene::from_text("[surface]\nshape = \"sphere\"\nradius_m = 0.013\n").unwrap_err();
+/// assert!(matches!(refused, SceneProblem::NoVersion));
+/// assert_eq!(refused.to_string(), "it does not state its version; put `version = 2` on its first line");
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneProblem {
@@ -187,6 +214,17 @@ pub enum SceneProblem {
 }
 
 /// Why a payload cannot be used.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{BadCarried, Scene, SceneProblem};
+///
+/// let payload = "[payload]\nmass_kg = -0.1\ncentre_of_mass_m = [0.0, 0.0, 0.02]\n";
+/// let refused = Scene::from_text(&format!("{BALL}{payload}")).unwrap_err();
+/// let SceneProblem::Payload { source, .. } = &refused else { panic!("{refused}") };
+/// assert!(matches!(**source, BadCarried::File(_)));
+/// assert!(refused.to_string().contains("mass_kg"));
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BadCarried {

@@ -10,6 +10,23 @@ use crate::estimate::Learnt;
 use crate::uncertainty::Spread;
 
 /// What one sample says: of a stage that the scene has not, nothing.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::Scene;
+/// use nalgebra::Vector3;
+///
+/// let mut pipeline = Scene::from_text(&format!("{BALL}[friction]\nstatic_coefficient = 0.5\n"))?.pipeline();
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.3, 0.0, -1.0));
+/// let felt = pipeline.sense(push, 1e-3);
+/// let (contact, force) = (felt.contact().ok_or("a contact")?, felt.force().ok_or("a force")?);
+/// assert!((contact.point.z - 0.013).abs() < 1e-12 && (force.normal - 1.0).abs() < 1e-12);
+/// assert!((felt.margin().ok_or("friction")?.utilisation - 0.6).abs() < 1e-12);
+/// // What the scene does not ask for.
+/// assert!(felt.spread.is_none() && felt.tracked.is_none() && felt.grip_force.is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Felt<T: Real> {
@@ -65,6 +82,17 @@ impl<T: Real> Felt<T> {
 }
 
 /// What a scene tells of a sample beside contact, forces, margin and verdict.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{Scene, Tells};
+///
+/// assert_eq!(Scene::from_text(BALL)?.tells(), Tells::default());
+/// let noise = "[uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n";
+/// let tells = Scene::from_text(&format!("{BALL}[contact]\nmodel = \"soft_finger\"\n{noise}"))?.tells();
+/// assert_eq!(tells, Tells { spin_torque: true, spread: true, ..Tells::default() });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tells {
     /// A spin torque: the contact model knows one.

@@ -69,6 +69,18 @@ impl FilterSection {
 /// A filter of second order, on each component of the wrench.
 ///
 /// It starts where the first wrench is, as if that had been there for ever, so that nothing swings in.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::Scene;
+///
+/// // 1000 samples a second, of which what is faster than 50 Hz is taken off.
+/// let input = BALL.replace("[surface]", "sample_rate_Hz = 1000.0\n[surface]");
+/// let scene = Scene::from_text(&format!("{input}[filter]\nkind = \"low_pass\"\ncutoff_Hz = 50.0\n"))?;
+/// // What changes slowly comes 1/(√2·π·50 Hz) late.
+/// assert!((scene.delay() - 4.5e-3).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filter<T: Real> {
     a: [T; 2],

@@ -31,6 +31,16 @@ pub(crate) struct FormulaSection {
 }
 
 /// What is wrong with a formula.
+///
+/// ```
+/// use fingertip_scene::{BadFormula, Scene, SceneProblem};
+///
+/// let text = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"formula\"\n\
+///             outside = \"x^2 + y^2 + z^2 - r^2\"\nreach_m = 0.02\n";
+/// let refused = Scene::from_text(text).unwrap_err();
+/// assert!(matches!(&refused, SceneProblem::Formula(BadFormula::Unknown(name)) if name == "r"));
+/// assert!(refused.to_string().contains("add it there"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BadFormula {

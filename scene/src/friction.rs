@@ -155,6 +155,21 @@ impl FrictionSection {
 }
 
 /// Any of the friction limits, chosen at run time.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::friction::FrictionModel;
+/// use fingertip::wrench::ContactForce;
+/// use fingertip_scene::{Limit, Scene};
+/// use nalgebra::Vector3;
+///
+/// let scene = Scene::from_text(&format!("{BALL}[friction]\nstatic_coefficient = 0.5\n"))?;
+/// let limit = scene.limit().ok_or("friction")?;
+/// assert!(matches!(limit, Limit::Coulomb(_)) && limit.coefficient() == 0.5);
+/// let force = ContactForce::new(2.0, Vector3::new(0.6, 0.0, 0.0), 0.0);
+/// assert!((limit.slip_margin(&force).utilisation - 0.6).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit<T: Real> {
     /// One coefficient in all directions.
@@ -226,6 +241,17 @@ impl<T: Real> Limit<T> {
 }
 
 /// The friction of a scene that may know none.
+///
+/// ```
+/// use fingertip::GripStage;
+/// use fingertip::wrench::ContactForce;
+/// use fingertip_scene::Friction;
+/// use nalgebra::Vector3;
+///
+/// // A scene without [friction] judges nothing.
+/// let force = ContactForce::new(2.0, Vector3::new(0.6, 0.0, 0.0), 0.0);
+/// assert_eq!(Friction::<f64>(None).judge(&force), None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction<T: Real>(pub Option<Limit<T>>);
 

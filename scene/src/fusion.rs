@@ -39,6 +39,24 @@ const fn usual_places() -> usize {
 }
 
 /// What one place of a tactile array reads: where it is pressed, and how hard.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::{ArrayReading, Scene};
+/// use nalgebra::Vector3;
+///
+/// let rest = "[uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n\
+///             [fusion]\nposition_deviation_m = 0.001\nnormal_deviation_N = 0.1\nstatic_coefficient = 0.8\n";
+/// let mut pipeline = Scene::from_text(&format!("{BALL}{rest}"))?.pipeline();
+/// pipeline.sense(Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.0, 0.0, -2.0)), 1e-3);
+/// // The array is off by half a millimetre and a tenth of a newton.
+/// let reading = ArrayReading { centroid: Vector3::new(0.0005, 0.0, 0.013), normal_force: 2.1 };
+/// let fused = pipeline.fuse(&[reading])?;
+/// let contact = fused.contacts[0].as_ref().ok_or("one contact")?;
+/// assert!(contact.point.x.abs() < 1e-4); // the wrench knows better
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct ArrayReading<T: Real> {
@@ -49,6 +67,26 @@ pub struct ArrayReading<T: Real> {
 }
 
 /// What wrench and array say together.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::{ArrayReading, Scene};
+/// use nalgebra::Vector3;
+///
+/// let rest = "[uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n\
+///             [fusion]\nposition_deviation_m = 0.001\nnormal_deviation_N = 0.1\nstatic_coefficient = 0.8\n";
+/// let mut pipeline = Scene::from_text(&format!("{BALL}{rest}"))?.pipeline();
+/// let places = [Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.013, 0.0, 0.0)];
+/// // It is pressed from above and, as the array alone does not see, from the side.
+/// let both = places.map(|place| Wrench::from_force_at(&place, -place.normalize() * 2.0));
+/// pipeline.sense(both[0] + both[1], 1e-3);
+/// let reading = |place: usize| ArrayReading { centroid: places[place], normal_force: 2.0 };
+/// let (one, two) = (pipeline.fuse(&[reading(0)])?, pipeline.fuse(&[reading(0), reading(1)])?);
+/// assert_eq!(two.contacts.iter().flatten().count(), 2);
+/// assert!(one.disagreement > 50.0 && two.disagreement < 10.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct FusedTouch<T: Real> {
@@ -64,6 +102,15 @@ pub struct FusedTouch<T: Real> {
 }
 
 /// Why wrench and array say nothing together.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{NoFusion, Scene};
+///
+/// let pipeline = Scene::from_text(BALL)?.pipeline();
+/// assert_eq!(pipeline.fuse(&[]), Err(NoFusion::NoSection));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NoFusion {

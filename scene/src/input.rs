@@ -7,6 +7,16 @@ use serde::{Deserialize, Serialize};
 use crate::columns::{ColumnsSection, UnitsSection};
 
 /// Which of the two opposite loads of a contact the recording holds.
+///
+/// ```
+/// use fingertip_scene::Convention;
+/// use nalgebra::Vector3;
+///
+/// // A sensor that reads 2 N up, since the fingertip presses on what is above it.
+/// let reads = Vector3::new(0.0, 0.0, 2.0);
+/// assert_eq!(Convention::Reaction.wrench(reads, Vector3::zeros()).force().z, -2.0);
+/// assert_eq!(Convention::OnFingertip.wrench(reads, Vector3::zeros()).force().z, 2.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Convention {

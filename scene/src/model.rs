@@ -174,6 +174,18 @@ impl ContactSection {
 pub(crate) const USUAL_DEVIATIONS: f64 = 3.0;
 
 /// Any of the contact models, chosen at run time.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{Model, Scene};
+///
+/// let model = |rest: &str| -> Result<Model<f64>, Box<dyn std::error::Error>> {
+///     Ok(Scene::from_text(&format!("{BALL}{rest}"))?.pipeline().model().clone())
+/// };
+/// assert!(matches!(model("")?, Model::Point(_)));
+/// assert!(matches!(model("[contact]\nmodel = \"soft_finger\"\n")?, Model::SoftFinger(_)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Model<T: Real> {
     /// A force and no torque of its own.

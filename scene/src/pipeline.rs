@@ -32,6 +32,24 @@ const PAUSE: f64 = 0.5;
 /// Made by [`Scene::pipeline`](crate::Scene::pipeline). One sample at a time: it keeps the last contact, what the
 /// slip detector saw, and what was learnt of the friction. After a pause of more than half a second, and after
 /// [`reset`](Self::reset), the next sample is the first.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::Scene;
+/// use nalgebra::Vector3;
+///
+/// let scene = Scene::from_text(BALL)?;
+/// let mut pipeline = scene.pipeline();
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.013, 0.0), Vector3::new(0.0, -1.0, 0.0));
+/// let felt = pipeline.sense(push, 1e-3);
+/// assert!((felt.contact().ok_or("a contact")?.point.y - 0.013).abs() < 1e-12);
+/// // The same in single precision, as a microcontroller has it.
+/// let mut single = scene.pipeline_in::<f32>()?;
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.013, 0.0), Vector3::new(0.0, -1.0, 0.0));
+/// assert!((single.sense(push, 1e-3).contact().ok_or("a contact")?.point.y - 0.013).abs() < 1e-8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pipeline<T: Real> {
     front: Front<T>,

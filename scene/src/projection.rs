@@ -3,6 +3,19 @@
 use nalgebra::Vector3;
 
 /// Which map it is, with what is drawn beside the points. Lengths in millimetres.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{MapKind, Scene};
+///
+/// assert_eq!(Scene::from_text(BALL)?.projection().kind(), MapKind::Polar { rim: None });
+/// let cylinder = BALL.replace("sphere", "cylinder");
+/// assert_eq!(
+///     Scene::from_text(&cylinder)?.projection().kind(),
+///     MapKind::Unrolled { radius: 13.0, half_length: None }
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MapKind {
     /// Plane: true to scale.
@@ -25,6 +38,20 @@ pub enum MapKind {
 }
 
 /// Takes points of a surface, in the sensor frame, to a flat map.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::Scene;
+/// use nalgebra::Vector3;
+///
+/// let scene = Scene::from_text(BALL)?;
+/// let map = scene.projection();
+/// assert_eq!(map.project(&Vector3::new(0.0, 0.0, 0.013)), (0.0, 0.0)); // the pole is in the middle
+/// let (x, y) = map.project(&Vector3::new(0.013, 0.0, 0.0));
+/// // An equal-area map draws the equator at 2 sin 45°.
+/// assert!((x.hypot(y) - 2.0_f64.sqrt()).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Projection {
     kind: MapKind,

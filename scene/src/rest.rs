@@ -10,6 +10,14 @@ use nalgebra::{SVector, Vector3, Vector6};
 const FALSE_ALARM_RATE: f64 = 1e-4;
 
 /// What made a rest doubtful, and how large it was.
+///
+/// ```
+/// use fingertip_scene::Doubt;
+///
+/// let doubt = Doubt { seen: "gauge 3 drifts".to_owned(), force_range: 0.1234 };
+/// let told = "gauge 3 drifts, and the force ranged over 0.123 N, so far the tare may be off";
+/// assert_eq!(doubt.to_string(), told);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Doubt {
     /// What was seen.
@@ -28,6 +36,26 @@ impl fmt::Display for Doubt {
 }
 
 /// Watches the readings at rest of `N` channels: gives their mean, and says why it may have been no rest.
+///
+/// ```
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::RestWatch;
+/// use nalgebra::SVector;
+///
+/// let mut watch = RestWatch::<f64, 6>::default();
+/// for sample in 0..500_u32 {
+///     // Noise, and 1 N on the third channel.
+///     let mut noise = SVector::<f64, 6>::from_fn(|k, _| {
+///         f64::from((sample * 6 + k as u32 + 1).wrapping_mul(2_654_435_769) >> 16) / 65_536e3
+///     });
+///     noise.z += 1.0;
+///     watch.add(&noise, &noise, &Wrench::from_components(&noise));
+/// }
+/// let zero = watch.tare()?;
+/// assert!((zero.zero().z - 1.0).abs() < 2e-3);
+/// assert!(watch.noise().ok_or("many readings")?.amax() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RestWatch<T: Real, const N: usize> {
     /// Nothing only if the rate above were none.

@@ -74,6 +74,22 @@ impl SkinSection {
 }
 
 /// Any of the laws of a skin, chosen at run time.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::{Model, Scene, Skin};
+/// use nalgebra::Vector3;
+///
+/// let skin = "[contact.skin]\nlaw = \"linear\"\nstiffness_N_per_m = 4000.0\nradius_m = 0.013\n";
+/// let mut pipeline = Scene::from_text(&format!("{BALL}{skin}"))?.pipeline();
+/// assert!(matches!(pipeline.model(), Model::PointUnderSkin(_)));
+/// // 2 N press the skin in by half a millimetre.
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.0, 0.0, -2.0));
+/// let contact = *pipeline.sense(push, 1e-3).contact().ok_or("a contact")?;
+/// assert!((contact.point.z - 0.0125).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Skin<T: Real> {
     /// Depth in proportion to the force.

@@ -109,6 +109,16 @@ impl SlipSection {
 }
 
 /// Any of the slip detectors, chosen at run time.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{Detector, Scene};
+///
+/// let scene = Scene::from_text(&format!("{BALL}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n"))?;
+/// assert!(matches!(scene.pipeline().detector(), Some(Detector::Drop(_))));
+/// assert!(Scene::from_text(BALL)?.pipeline().detector().is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Detector<T: Real> {
     /// A sudden fall of the friction ratio.
@@ -158,6 +168,16 @@ impl<T: Real> SlipDetector<T> for Detector<T> {
 }
 
 /// The slip detector of a scene that may have none.
+///
+/// ```
+/// use fingertip::SlipStage;
+/// use fingertip_scene::SlipWatch;
+///
+/// // A scene without [slip] watches nothing.
+/// let mut watch = SlipWatch::<f64>(None);
+/// assert_eq!(watch.follow(None, 1e-3), None);
+/// assert_eq!(watch.stick_slip(), None);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlipWatch<T: Real>(pub Option<Detector<T>>);
 

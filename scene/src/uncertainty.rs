@@ -114,6 +114,17 @@ impl UncertaintySection {
 }
 
 /// What is uncertain of a fingertip: its wrench, by noise and by calibration, and where its surface is.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::Scene;
+///
+/// // A calibration that is not there cannot be counted.
+/// let noise = "[uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n";
+/// assert!(Scene::from_text(&format!("{BALL}{noise}"))?.tells().spread);
+/// assert!(Scene::from_text(&format!("{BALL}{noise}calibration = true\n")).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty<T: Real> {
     pub(crate) noise: WrenchNoise<T>,
@@ -126,6 +137,23 @@ pub struct Uncertainty<T: Real> {
 }
 
 /// How sure a contact is: standard deviations to first order.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip::wrench::Wrench;
+/// use fingertip_scene::Scene;
+/// use nalgebra::Vector3;
+///
+/// let noise = "[uncertainty]\nforce_noise_N = 0.01\ntorque_noise_Nm = 0.0001\n";
+/// let mut pipeline = Scene::from_text(&format!("{BALL}{noise}"))?.pipeline();
+/// let mut axis = |newtons: f64| {
+///     let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.013), Vector3::new(0.0, 0.0, -newtons));
+///     pipeline.sense(push, 1e-3).spread.map(|spread| spread.ellipse.semi_axes[0])
+/// };
+/// let (soft, firm) = (axis(1.0).ok_or("a spread")?, axis(4.0).ok_or("a spread")?);
+/// assert!((soft / firm - 4.0).abs() < 1e-6); // the firmer, the surer
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Spread<T: Real> {

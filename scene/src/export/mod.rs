@@ -25,6 +25,17 @@ use crate::fault::SceneProblem;
 use crate::scene::Scene;
 
 /// Why a scene cannot be exported.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{ExportError, Scalar, Scene};
+///
+/// let scene = Scene::from_text(BALL)?;
+/// let refused = scene.to_c(Scalar::F32, None, "Tip").unwrap_err();
+/// assert!(matches!(&refused, ExportError::Name { name } if name == "Tip"));
+/// assert!(refused.to_string().contains("is no name for C"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {

@@ -20,6 +20,14 @@ mod keys;
 mod shape_keys;
 
 /// One choice of a section.
+///
+/// ```
+/// use fingertip_scene::registry;
+///
+/// let cylinder = registry::SHAPES.iter().find(|entry| entry.name == "cylinder").ok_or("it is known")?;
+/// assert!(cylinder.text().starts_with("[surface]\nshape = \"cylinder\"\nradius_m = "));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// The section, as `contact.skin`.
@@ -45,6 +53,13 @@ impl Entry {
 }
 
 /// Whether a file must have something.
+///
+/// ```
+/// use fingertip_scene::registry::{Need, sections};
+///
+/// let needed = sections().filter(|section| section.need == Need::Required).map(|section| section.name);
+/// assert_eq!(needed.collect::<Vec<_>>(), ["", "input", "surface"]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// A file without it is refused.
@@ -54,6 +69,14 @@ pub enum Need {
 }
 
 /// A section of a scene file.
+///
+/// ```
+/// use fingertip_scene::registry::sections;
+///
+/// let friction = sections().find(|section| section.name == "friction").ok_or("it is known")?;
+/// assert!(friction.says.starts_with("how much friction holds"));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Section {
     /// Its name, as `contact.skin`; empty for what stands above all sections.
@@ -65,6 +88,14 @@ pub struct Section {
 }
 
 /// A key of a section.
+///
+/// ```
+/// use fingertip_scene::registry::{Need, keys};
+///
+/// let radius = keys().find(|key| (key.choice, key.name) == ("sphere", "radius_m")).ok_or("it is known")?;
+/// assert_eq!((radius.section, radius.need), ("surface", Need::Required));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     /// The section, as `contact.skin`.

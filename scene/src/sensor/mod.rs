@@ -17,6 +17,16 @@ pub(crate) use section::{SensorSection, SensorSource};
 pub const GAUGES: core::ops::RangeInclusive<usize> = 6..=16;
 
 /// One reading of a sensor's gauges, and what was measured beside them.
+///
+/// ```
+/// use fingertip_scene::GaugeReading;
+///
+/// let gauges = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+/// let plain = GaugeReading::of(&gauges);
+/// assert_eq!((plain.dummy, plain.celsius), (None, None));
+/// let warm = GaugeReading { celsius: Some(31.5), ..plain };
+/// assert_ne!(warm, plain);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaugeReading<'a, T> {
     /// The gauges, in the unit of the calibration.
@@ -35,6 +45,17 @@ impl<'a, T> GaugeReading<'a, T> {
 }
 
 /// Why a reading gives no wrench.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{GaugeReading, NoWrench, Scene};
+///
+/// let mut pipeline = Scene::from_text(BALL)?.pipeline();
+/// let why = pipeline.sense_reading(&GaugeReading::of(&[0.0; 6]), None, 1e-3).unwrap_err();
+/// assert_eq!(why, NoWrench::NoSensor);
+/// assert_eq!(why.to_string(), "the scene has no [sensor] that turns readings into wrenches");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -59,6 +80,16 @@ pub enum NoWrench {
 }
 
 /// Why no wrench comes of a calibration.
+///
+/// ```
+/// # const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n";
+/// use fingertip_scene::{BadSensor, Scene, SceneProblem};
+///
+/// let sensor = "[sensor]\nsignal_unit = \"V\"\nload_per_signal_N_Nm = [[1.0, 0.0], [0.0, 1.0]]\n";
+/// let refused = Scene::from_text(&format!("{BALL}{sensor}")).unwrap_err();
+/// println!("{refused} {refused:?}");
+/// assert!(matches!(&refused, SceneProblem::Sensor { source, .. } if matches!(**source, BadSensor::File(_))));
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BadSensor {

@@ -31,6 +31,15 @@ pub(crate) struct UrdfSection {
 }
 
 /// Why a robot's description gives no surface.
+///
+/// ```
+/// use fingertip_scene::{Scene, SceneProblem, UrdfFault};
+///
+/// let text = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nurdf = \"no-such-hand.urdf\"\nlink = \"tip\"\n";
+/// let refused = Scene::from_text(text).unwrap_err();
+/// let SceneProblem::Urdf(bad) = refused else { panic!("{refused}") };
+/// assert!(bad.path.ends_with("no-such-hand.urdf") && matches!(bad.fault, UrdfFault::Unreadable(_)));
+/// ```
 #[derive(Debug, Error)]
 #[error("robot {path}: {fault}", path = .path.display())]
 pub struct BadUrdf {
@@ -41,6 +50,13 @@ pub struct BadUrdf {
 }
 
 /// What is wrong with a robot's description, or with what a scene asks of it.
+///
+/// ```
+/// use fingertip_scene::UrdfFault;
+///
+/// let fault = UrdfFault::NoCollision("palm".to_owned());
+/// assert!(fault.to_string().starts_with("link \"palm\" has no <collision>"));
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum UrdfFault {
