@@ -46,7 +46,7 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 /// ```
 /// use fingertip_friction::SlipVerdict;
 /// use fingertip_hand::{
-///     FingerLimits, FingerSample, FingerState, GraspContact, HandController, HandLoad, HandSettings,
+///     FingerLimits, FingerSample, FingerState, GraspContact, Hand, HandController, HandLoad, HandSettings,
 /// };
 /// use fingertip_wrench::ContactForce;
 /// use nalgebra::Vector3;
@@ -57,7 +57,7 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 ///
 /// // Each feels half of the 200 g that they hold.
 /// let finger = |x: f64, slip| {
-///     let contact = GraspContact::soft(Vector3::x() * x, -Vector3::x() * x, 0.6, 3e-3)?;
+///     let contact = GraspContact::<_, Hand>::soft(Vector3::x() * x, -Vector3::x() * x, 0.6, 3e-3)?;
 ///     let force = ContactForce::new(3.0, -Vector3::z() * 0.98, 0.0);
 ///     Ok::<_, fingertip_hand::BadContact>(FingerState::Touching(FingerSample { contact, force, slip }))
 /// };
