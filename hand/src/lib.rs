@@ -23,6 +23,6 @@ pub use load::{FingerContact, UncertainWrench};
 pub use object::{ObjectWeight, OtherContact, WeightEstimate};
 pub use quality::{GraspBall, Metric, Reach};
 pub use react::{
-    BadHandSettings, FingerSample, FingerState, FrictionBelief, HandCommand, HandController, HandLoad,
-    HandSettings, HandState, LearntFriction, SlipFactor,
+    AnyBelief, BadHandSettings, FingerSample, FingerState, FrictionBelief, HandCommand, HandController,
+    HandLoad, HandSettings, HandState, LearntFriction, SlipFactor,
 };

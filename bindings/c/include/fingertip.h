@@ -515,6 +515,13 @@ typedef struct ft_hand_settings {
     double greatest_ratio;
     // With what rate the factor that slips have taught goes back to one, in 1/s; 0 for never.
     double recovery;
+    // Standard deviation of a component of the contact force, in N, with which each finger learns its friction at slips;
+    // 0 for none that learns. What is learnt is relied on in place of the coefficient of the finger.
+    double friction_noise;
+    // How break-away scatters on one surface, as a share; where friction is learnt.
+    double friction_scatter;
+    // With what probability the friction may be less than what is relied on; where it is learnt.
+    double friction_probability;
 } ft_hand_settings;
 
 // What a finger can give. All zero is a finger that can give any force.
@@ -535,6 +542,10 @@ typedef struct ft_hand_order {
     uint32_t implausible;
     // For each finger, in N; zero of fingers that the hand has not.
     double normal_force[FT_MAX_FINGERS];
+    // Friction coefficient of each finger as slips have taught it; zero before the first slip, and where none is learnt.
+    double friction[FT_MAX_FINGERS];
+    // Its standard deviation.
+    double friction_deviation[FT_MAX_FINGERS];
     // With FT_HAND_CANNOT_HOLD, the motion by which the object will go, of which the direction alone has a meaning: its
     // velocity at the origin of the hand's frame, in m/s.
     double velocity[3];
@@ -651,7 +662,8 @@ ft_status ft_hand_least_grip(struct ft_hand *hand,
                              struct ft_grip *grip);
 
 // A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
-// without recovery, and no contact beyond a friction ratio of 3.
+// without recovery, and no contact beyond a friction ratio of 3. No friction is learnt; where it is, with a scatter of 0.05
+// and so that one slip in a hundred has less.
 struct ft_hand_settings ft_hand_settings_defaults(void);
 
 // Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has

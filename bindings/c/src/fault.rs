@@ -3,6 +3,7 @@
 use core::ffi::c_char;
 use core::num::FpCategory;
 
+use fingertip::friction::BadParameter;
 use fingertip::hand::{BadContact, BadHandSettings, BadLimit};
 use fingertip::wrench::{TareError, TransformError};
 use fingertip_scene::{NoFusion, NoWrench, SceneError, SceneProblem};
@@ -73,6 +74,8 @@ pub(crate) enum Fault {
     Limit { finger: usize, source: BadLimit },
     #[error(transparent)]
     Settings(#[from] BadHandSettings),
+    #[error(transparent)]
+    Friction(#[from] BadParameter),
     #[error("`hand_from_sensor`: {0}")]
     Pose(TransformError),
     #[error(transparent)]
@@ -112,6 +115,7 @@ impl Fault {
             | Self::NoFinger(_)
             | Self::Limit { .. }
             | Self::Settings(_)
+            | Self::Friction(_)
             | Self::Pose(_)
             | Self::Fusion(_) => ft_status::FT_BAD_NUMBER,
             Self::Reading(NoWrench::Saturated) => ft_status::FT_SATURATED,

@@ -2,7 +2,10 @@
 
 use core::ffi::c_char;
 
-use fingertip::hand::{FingerLimits, HandController, HandSettings, HandState, LeastGrip};
+use fingertip::friction::ForceNoise;
+use fingertip::hand::{
+    AnyBelief, FingerLimits, HandController, HandSettings, HandState, LearntFriction, LeastGrip,
+};
 
 use crate::border::{self, Keeps, hand_out, on, place, read, read_many, told};
 use crate::fault::{Fault, ft_status};
@@ -16,7 +19,7 @@ pub(crate) const ROWS: usize = 2;
 /// A hand: what it commanded last, and what slip has taught it. Made by ft_hand_create, freed by ft_hand_free.
 #[derive(Debug)]
 pub struct ft_hand {
-    pub(crate) controller: HandController<f64, FT_MAX_FINGERS, ROWS>,
+    pub(crate) controller: HandController<f64, FT_MAX_FINGERS, ROWS, AnyBelief<f64>>,
     pub(crate) limits: [FingerLimits<f64, ROWS>; FT_MAX_FINGERS],
     /// For the question of the least grip alone.
     pub(crate) least: LeastGrip<f64, FT_MAX_FINGERS, ROWS>,
@@ -58,6 +61,29 @@ pub struct ft_hand_settings {
     pub greatest_ratio: f64,
     /// With what rate the factor that slips have taught goes back to one, in 1/s; 0 for never.
     pub recovery: f64,
+    /// Standard deviation of a component of the contact force, in N, with which each finger learns its friction at slips;
+    /// 0 for none that learns. What is learnt is relied on in place of the coefficient of the finger.
+    pub friction_noise: f64,
+    /// How break-away scatters on one surface, as a share; where friction is learnt.
+    pub friction_scatter: f64,
+    /// With what probability the friction may be less than what is relied on; where it is learnt.
+    pub friction_probability: f64,
+}
+
+impl ft_hand_settings {
+    fn habits(&self) -> HandSettings<f64> {
+        let Self { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery, .. } = *self;
+        HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery }
+    }
+
+    fn belief(&self) -> Result<AnyBelief<f64>, Fault> {
+        if self.friction_noise == 0.0 {
+            return Ok(AnyBelief::default());
+        }
+        let noise = ForceNoise::isotropic(self.friction_noise)?;
+        let learnt = LearntFriction::new(noise, self.friction_scatter, self.friction_probability)?;
+        Ok(AnyBelief::Learnt(learnt))
+    }
 }
 
 /// What commands rest on.
@@ -85,6 +111,10 @@ pub struct ft_hand_order {
     pub implausible: u32,
     /// For each finger, in N; zero of fingers that the hand has not.
     pub normal_force: [f64; FT_MAX_FINGERS],
+    /// Friction coefficient of each finger as slips have taught it; zero before the first slip, and where none is learnt.
+    pub friction: [f64; FT_MAX_FINGERS],
+    /// Its standard deviation.
+    pub friction_deviation: [f64; FT_MAX_FINGERS],
     /// With FT_HAND_CANNOT_HOLD, the motion by which the object will go, of which the direction alone has a meaning: its
     /// velocity at the origin of the hand's frame, in m/s.
     pub velocity: [f64; 3],
@@ -93,12 +123,24 @@ pub struct ft_hand_order {
 }
 
 /// A safety of 1.3, 200 N/s up and 2 N/s down, friction taken as 0.8 times as large at each slip and never below 0.1,
-/// without recovery, and no contact beyond a friction ratio of 3.
+/// without recovery, and no contact beyond a friction ratio of 3. No friction is learnt; where it is, with a scatter of 0.05
+/// and so that one slip in a hundred has less.
 #[unsafe(no_mangle)]
 pub extern "C" fn ft_hand_settings_defaults() -> ft_hand_settings {
     let HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery } =
         HandSettings::default();
-    ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery }
+    ft_hand_settings {
+        safety,
+        rise,
+        fall,
+        at_slip,
+        least_friction,
+        greatest_ratio,
+        recovery,
+        friction_noise: 0.0,
+        friction_scatter: 0.05,
+        friction_probability: 0.01,
+    }
 }
 
 /// Makes a hand of 1 to FT_MAX_FINGERS fingers; it begins with the least normal forces of their limits. `limits` has
@@ -124,10 +166,8 @@ pub unsafe extern "C" fn ft_hand_create(
                 *to = from.limits(index)?;
             }
         }
-        let ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery } =
-            given;
-        let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery };
-        let controller = HandController::new(settings, each)?;
+        let beliefs = [given.belief()?; FT_MAX_FINGERS];
+        let controller = HandController::with_beliefs(given.habits(), each, beliefs)?;
         let least = LeastGrip::new();
         hand_out(place, ft_hand { controller, limits: each, least, count, error: ft_error::none() });
         Ok(())
@@ -173,11 +213,19 @@ pub unsafe extern "C" fn ft_hand_command(
             state: ft_hand_state::FT_HAND_HOLDING,
             implausible: 0,
             normal_force: [0.0; FT_MAX_FINGERS],
+            friction: [0.0; FT_MAX_FINGERS],
+            friction_deviation: [0.0; FT_MAX_FINGERS],
             velocity: [0.0; 3],
             turning: [0.0; 3],
         };
         for (to, from) in told.normal_force.iter_mut().zip(&command.normal).take(count) {
             *to = *from;
+        }
+        let learnt = told.friction.iter_mut().zip(&mut told.friction_deviation);
+        for ((friction, deviation), belief) in learnt.zip(hand.controller.beliefs()).take(count) {
+            if let Some(estimate) = belief.estimate() {
+                (*friction, *deviation) = (estimate.coefficient, estimate.deviation);
+            }
         }
         for (index, implausible) in command.implausible.iter().enumerate() {
             told.implausible |= u32::from(*implausible) << index;

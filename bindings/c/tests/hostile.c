@@ -338,7 +338,7 @@ static void create(void) {
     ft_hand_settings settings = ft_hand_settings_defaults();
     ft_finger_limits limits[FT_MAX_FINGERS + 1];
     for (int i = 0; i <= FT_MAX_FINGERS; ++i) limits[i] = (ft_finger_limits){0.3, 15.0, 1.0};
-    if (once_in(3)) numbers(&settings, 6, 5.0);
+    if (once_in(3)) numbers(&settings, sizeof(settings) / sizeof(double), 5.0);
     if (once_in(3)) numbers(limits, 3 * FT_MAX_FINGERS, 5.0);
     if (ft_hand_create(&settings, once_in(3) ? NULL : limits, some_count(2 + below(4)), hand, &error) != FT_OK) {
         settings = ft_hand_settings_defaults();

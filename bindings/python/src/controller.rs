@@ -1,8 +1,9 @@
 //! `fingertip.HandController`: how firmly each finger shall press.
 
-use fingertip::friction::SlipVerdict;
+use fingertip::friction::{ForceNoise, SlipVerdict};
 use fingertip::hand::{
-    FingerSample, FingerState, HandCommand, HandController, HandLoad, HandSettings, HandState,
+    AnyBelief, FingerSample, FingerState, HandCommand, HandController, HandLoad, HandSettings, HandState,
+    LearntFriction,
 };
 use fingertip::wrench::ContactForce;
 use pyo3::prelude::*;
@@ -28,6 +29,12 @@ use crate::{enums, errors, numbers, value};
 ///     With what rate the factor that slips have taught goes back to one [1/s]; 0 for never.
 /// least, greatest : float, optional
 ///     Normal force of each finger [N].
+/// friction_noise : float, optional
+///     Standard deviation of a component of the contact force [N]. With it, each finger learns its friction at slips, and
+///     relies on that in place of the coefficient of its contact.
+/// friction_scatter, friction_probability : float, optional
+///     How break-away scatters on one surface, as a share, and with what probability the friction may be less than what is
+///     relied on; where it is learnt.
 ///
 /// Notes
 /// -----
@@ -35,14 +42,26 @@ use crate::{enums, errors, numbers, value};
 #[pyclass(name = "HandController", module = "fingertip", skip_from_py_object)]
 #[derive(Clone)]
 pub(crate) struct PyController {
-    hand: HandController<f64, MOST, 2>,
-    made: (HandSettings<f64>, f64, Option<f64>),
+    hand: HandController<f64, MOST, 2, AnyBelief<f64>>,
+    made: Made,
 }
 
+/// Habits, limits of the normal forces, and noise, scatter and probability of friction that is learnt.
+type Made = (HandSettings<f64>, f64, Option<f64>, Option<[f64; 3]>);
+
 impl PyController {
-    fn of(made: (HandSettings<f64>, f64, Option<f64>)) -> PyResult<Self> {
-        let (settings, least, greatest) = made;
-        let hand = HandController::new(settings, limits(least, greatest)?).map_err(errors::hand)?;
+    fn of(made: Made) -> PyResult<Self> {
+        let (settings, least, greatest, learning) = made;
+        let belief = match learning {
+            None => AnyBelief::default(),
+            Some([noise, scatter, probability]) => {
+                let noise = ForceNoise::isotropic(noise).map_err(errors::hand)?;
+                let learnt = LearntFriction::new(noise, scatter, probability).map_err(errors::hand)?;
+                AnyBelief::Learnt(learnt)
+            }
+        };
+        let limits = limits(least, greatest)?;
+        let hand = HandController::with_beliefs(settings, limits, [belief; MOST]).map_err(errors::hand)?;
         Ok(Self { hand, made })
     }
 }
@@ -105,7 +124,7 @@ pub(crate) fn told<'py>(py: Python<'py>, sample: &FingerSample<f64>) -> PyResult
 #[pymethods]
 impl PyController {
     #[new]
-    #[pyo3(signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, recovery=0.0, least=0.3, greatest=None))]
+    #[pyo3(signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, recovery=0.0, least=0.3, greatest=None, friction_noise=None, friction_scatter=0.05, friction_probability=0.01))]
     #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         safety: f64,
@@ -117,9 +136,13 @@ impl PyController {
         recovery: f64,
         least: f64,
         greatest: Option<f64>,
+        friction_noise: Option<f64>,
+        friction_scatter: f64,
+        friction_probability: f64,
     ) -> PyResult<Self> {
         let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery };
-        Self::of((settings, least, greatest))
+        let learning = friction_noise.map(|noise| [noise, friction_scatter, friction_probability]);
+        Self::of((settings, least, greatest, learning))
     }
 
     /// Takes what the fingers feel; gives what to command.
@@ -168,6 +191,13 @@ impl PyController {
             HandState::Doubtful | HandState::Blind => None,
         };
         Ok((normal.into_iter().take(count).collect(), holds, implausible.into_iter().take(count).collect()))
+    }
+
+    /// Coefficient and standard deviation of each of up to five fingers as slips have taught them, or `None`.
+    #[getter]
+    fn friction(&self) -> Vec<Option<(f64, f64)>> {
+        let beliefs = self.hand.beliefs().iter();
+        beliefs.map(|belief| belief.estimate().map(|learnt| (learnt.coefficient, learnt.deviation))).collect()
     }
 
     /// Forgets what was learnt of the friction, as for another object.

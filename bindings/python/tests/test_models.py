@@ -317,6 +317,33 @@ def test_a_controller_presses_as_firmly_as_it_must():
     assert np.allclose(before, np.array(least) * 1.3, rtol=0.3) and sum(normal) > sum(before)
 
 
+def test_a_controller_learns_the_friction_of_its_fingers():
+    def finger(side, ratio, slip):
+        inward = np.array([-side, 0.0, 0.0])
+        return {"point": -0.02 * inward, "outward": inward, "friction": 0.9, "arm": 2e-3, "normal": 2.0,
+                "tangential": [0.0, 0.0, -2.0 * ratio], "slip": slip}  # fmt: skip
+
+    trusting, learning = (
+        fingertip.HandController(safety=1.0, rise=1e4, greatest=20.0, friction_noise=noise) for noise in (None, 0.01)
+    )
+    for hand in (trusting, learning):
+        for step in range(100):
+            ratio = 0.004 * step
+            hand.command([finger(side, ratio, SlipVerdict.HOLDING) for side in (-1, 1)], 1e-3)
+        normal, holds, _ = hand.command([finger(side, 0.4, SlipVerdict.SLIPPING) for side in (-1, 1)], 1e-3)
+        assert holds
+        # 0.8 N on each: by a coefficient of 0.8 · 0.9, or by what a slip at 0.4 has taught.
+        expected = (0.8 / 0.72) if hand is trusting else 0.8 / 0.355
+        assert normal[0] == pytest.approx(expected, rel=0.05)
+    assert trusting.friction == [None] * 5
+    (coefficient, deviation), *_ = learning.friction
+    assert coefficient == pytest.approx(0.4, rel=0.05) and 0.0 < deviation < 0.05
+    learning.forget_friction()
+    assert learning.friction == [None] * 5
+    with pytest.raises(fingertip.HandError, match="probability of less friction"):
+        fingertip.HandController(friction_noise=0.01, friction_probability=0.7)
+
+
 def test_a_finger_that_reads_what_cannot_be_drives_no_other():
     scene = fingertip.Scene.from_dict(
         {"surface": {"shape": "sphere", "radius_m": 0.01}, "contact": {"model": "soft_finger", "least_force_N": 0.05}}

@@ -87,6 +87,67 @@ impl<T: Real> FrictionBelief<T> for SlipFactor<T> {
     }
 }
 
+/// Either of the beliefs, chosen at run time.
+///
+/// ```
+/// use fingertip_friction::ForceNoise;
+/// use fingertip_hand::{AnyBelief, FingerLimits, HandController, HandSettings, LearntFriction};
+///
+/// let learns = LearntFriction::new(ForceNoise::isotropic(0.01)?, 0.05, 0.01)?;
+/// let beliefs = [AnyBelief::Learnt(learns), AnyBelief::default()];
+/// let hand = HandController::with_beliefs(HandSettings::default(), [FingerLimits::<f64, 2>::none(); 2], beliefs)?;
+/// // Nothing has slipped so far.
+/// assert!(hand.beliefs().iter().all(|belief| belief.estimate().is_none()));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyBelief<T> {
+    /// What is known beforehand, less at each slip.
+    SlipFactor(SlipFactor<T>),
+    /// What slips have taught.
+    Learnt(LearntFriction<T>),
+}
+
+impl<T: Real> Default for AnyBelief<T> {
+    fn default() -> Self {
+        Self::SlipFactor(SlipFactor::default())
+    }
+}
+
+impl<T: Real> AnyBelief<T> {
+    /// What slips have taught; `None` before the first, and without learning.
+    #[must_use]
+    pub fn estimate(&self) -> Option<FrictionEstimate<T>> {
+        match self {
+            Self::SlipFactor(_) => None,
+            Self::Learnt(learnt) => learnt.estimate(),
+        }
+    }
+}
+
+impl<T: Real> FrictionBelief<T> for AnyBelief<T> {
+    fn rely(
+        &mut self,
+        beforehand: T,
+        force: &ContactForce<T>,
+        slip: SlipVerdict,
+        time_step: T,
+        settings: &HandSettings<T>,
+    ) -> T {
+        match self {
+            Self::SlipFactor(belief) => belief.rely(beforehand, force, slip, time_step, settings),
+            Self::Learnt(belief) => belief.rely(beforehand, force, slip, time_step, settings),
+        }
+    }
+
+    fn forget(&mut self) {
+        match self {
+            Self::SlipFactor(belief) => belief.forget(),
+            Self::Learnt(belief) => belief.forget(),
+        }
+    }
+}
+
 /// How many ratios the estimator of a finger keeps.
 const KEPT: usize = 64;
 /// How many samples a contact holds in a row to have held.

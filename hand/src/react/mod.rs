@@ -5,7 +5,7 @@ mod controller;
 mod finger;
 mod settings;
 
-pub use belief::{FrictionBelief, LearntFriction, SlipFactor};
+pub use belief::{AnyBelief, FrictionBelief, LearntFriction, SlipFactor};
 pub use controller::{HandCommand, HandController, HandState};
 pub use finger::{FingerSample, FingerState, HandLoad};
 pub use settings::{BadHandSettings, HandSettings};

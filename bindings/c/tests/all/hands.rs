@@ -2,10 +2,10 @@
 
 use core::ptr;
 
-use fingertip::friction::SlipVerdict;
+use fingertip::friction::{ForceNoise, SlipVerdict};
 use fingertip::hand::{
-    FingerLimits, FingerSample, FingerState, Grasp, GraspContact, GripOutcome, Hand, HandController,
-    HandLoad, HandSettings, HandState, LeastGrip,
+    FingerLimits, FingerSample, FingerState, FrictionBelief, Grasp, GraspContact, GripOutcome, Hand,
+    HandController, HandLoad, HandSettings, HandState, LearntFriction, LeastGrip,
 };
 use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
 use fingertip_c::{
@@ -241,6 +241,37 @@ fn a_touch_becomes_a_finger_in_the_frame_of_the_hand() {
     assert!(said.starts_with("`hand_from_sensor`: "), "{said}");
 }
 
+/// Two fingers are pulled ever harder, until they slip at a ratio of 0.4.
+#[test]
+fn a_hand_that_learns_tells_what_slips_have_taught() {
+    let settings = fingertip_c::ft_hand_settings { friction_noise: 0.01, ..ft_hand_settings_defaults() };
+    let mut hand: *mut ft_hand = ptr::null_mut();
+    let limits = [LIMIT; 2];
+    let status = unsafe { ft_hand_create(&settings, limits.as_ptr(), 2, &raw mut hand, ptr::null_mut()) };
+    assert_eq!(status, ft_status::FT_OK);
+    let noise = ForceNoise::isotropic(0.01).unwrap();
+    let mut belief = LearntFriction::new(noise, 0.05, 0.01).unwrap();
+    for k in 0..=100 {
+        let ratio = 0.004 * f64::from(k);
+        let fingers = [0, 1].map(|index| ft_finger {
+            normal_force: 2.0,
+            tangential_force: [0.0, 0.0, -2.0 * ratio],
+            slip: if k == 100 { ft_slip::FT_SLIPPING as u32 } else { ft_slip::FT_HOLDING as u32 },
+            ..finger(index, 2e-3)
+        });
+        let order: ft_hand_order =
+            written(|to| unsafe { ft_hand_command(hand, fingers.as_ptr(), 2, ptr::null(), 1e-3, to) })
+                .unwrap();
+        let sample = sample(&fingers[0]);
+        belief.rely(sample.contact.friction(), &sample.force, sample.slip, 1e-3, &HandSettings::default());
+        let learnt = belief.estimate().map_or([0.0; 2], |learnt| [learnt.coefficient, learnt.deviation]);
+        assert_eq!([order.friction[0], order.friction_deviation[0]], learnt, "{k}");
+        assert_eq!(order.friction[2..], [0.0; FT_MAX_FINGERS - 2]);
+        assert_eq!(order.friction[0] > 0.0, k == 100);
+    }
+    unsafe { ft_hand_free(&raw mut hand) };
+}
+
 #[test]
 fn what_a_hand_cannot_use_is_named() {
     let hand = Held::new(&[LIMIT; 3]);
@@ -272,6 +303,11 @@ fn what_a_hand_cannot_use_is_named() {
     create(good, &[], "0 fingers were given, and a hand has from 1 to 6");
     create(good, &[LIMIT; 7], "7 fingers");
     create(fingertip_c::ft_hand_settings { safety: 0.5, ..good }, &[LIMIT], "factor of safety");
+    for (noise, says) in [(-0.01, "noise"), (f64::NAN, "noise")] {
+        create(fingertip_c::ft_hand_settings { friction_noise: noise, ..good }, &[LIMIT], says);
+    }
+    let learning = fingertip_c::ft_hand_settings { friction_noise: 0.01, friction_probability: 0.7, ..good };
+    create(learning, &[LIMIT], "probability of less friction");
     let limit = ft_finger_limits { greatest_normal_force: 0.1, ..LIMIT };
     create(good, &[LIMIT, limit], "finger 1: the greatest normal force");
 }

@@ -66,8 +66,11 @@ fn here() -> Layout {
         ft_grip {
             state, reserved, normal_force, tangential_force, spin_torque, cost, least_cost, velocity, turning,
         }
-        ft_hand_order { state, implausible, normal_force, velocity, turning }
-        ft_hand_settings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery }
+        ft_hand_order { state, implausible, normal_force, friction, friction_deviation, velocity, turning }
+        ft_hand_settings {
+            safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery, friction_noise,
+            friction_scatter, friction_probability,
+        }
         ft_margin { newtons, utilisation }
         ft_motion { gravity, angular_velocity, angular_acceleration }
         ft_pose { rotation, origin }
