@@ -16,6 +16,8 @@ use crate::surface::PySurface;
 /// A file that takes the place of a section, with what stands in it: a scene that is pickled finds it anywhere.
 #[derive(Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 struct Enclosed {
+    /// From where it was read.
+    path: PathBuf,
     /// What tells the formats of calibrations apart.
     ending: String,
     text: String,
@@ -26,7 +28,7 @@ impl Enclosed {
         let text = fingertip_calibration::file::read_text(path)
             .map_err(|error| errors::scene(format!("cannot read {}: {error}", path.display())))?;
         let ending = path.extension().map(|ending| ending.to_string_lossy().into_owned());
-        Ok(Self { ending: ending.unwrap_or_default(), text })
+        Ok(Self { path: path.to_owned(), ending: ending.unwrap_or_default(), text })
     }
 
     /// Gives it to what reads files.
@@ -260,7 +262,12 @@ impl PyScene {
     /// The files that were read for it beside its own: calibration, payload, mesh, the description of a robot and the
     /// meshes that it names. Whoever writes files should write over none of them.
     fn files(&self) -> Vec<PathBuf> {
-        self.scene.files().to_vec()
+        // Those that travel with the scene were given to it in temporary places, behind all others.
+        let Made { calibration, payload, .. } = &self.made;
+        let enclosed: Vec<PathBuf> =
+            [calibration, payload].into_iter().flatten().map(|file| file.path.clone()).collect();
+        let named = self.scene.files().len() - enclosed.len();
+        self.scene.files().iter().take(named).cloned().chain(enclosed).collect()
     }
 
     /// Where points of the surface lie on its flat map, as reports draw it: in mm on a plane and an unrolled
