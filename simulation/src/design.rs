@@ -15,6 +15,17 @@ use crate::error::{SimulationError, positive};
 /// overload and for gauges that last. A thinner wall would give more signal but no finer
 /// resolution, since the converter's range grows with it; and 0.2 mm on a 10 mm tube is about what
 /// a lathe can hold.
+///
+/// ```
+/// use fingertip_simulation::Design;
+/// use nalgebra::Vector3;
+///
+/// let design = Design::default();
+/// assert_eq!(design.sphere()?.radius(), 13e-3);
+/// // The top of the sphere can be touched, the opening where the beam enters cannot.
+/// assert!(design.is_active(&Vector3::x()) && !design.is_active(&-Vector3::x()));
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Design {
     /// Radius of the sphere \[m\]: 13 mm.

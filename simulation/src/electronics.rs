@@ -21,6 +21,18 @@ use crate::error::{SimulationError, not_negative, positive};
 ///   1000 samples per second the converter runs at 16 kHz;
 /// * the dummy gauge is averaged over 0.1 s, since the temperature is slow and its noise would come
 ///   into all gauges alike.
+///
+/// ```
+/// use fingertip_simulation::Electronics;
+///
+/// let electronics = Electronics::default();
+/// // 450 µm/m of strain make 1.1 mV, which almost fill the converter.
+/// let input = electronics.bridge(450e-6);
+/// assert!((input - 1.125e-3).abs() < 1e-6);
+/// let volts = electronics.convert(input);
+/// assert!(volts > 4.7 && !electronics.is_saturated(volts));
+/// assert!(electronics.is_saturated(electronics.convert(2e-3)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Electronics {
     /// Relative change of resistance per strain.

@@ -4,6 +4,13 @@ use fingertip_wrench::gauge_layout::LayoutError;
 use thiserror::Error;
 
 /// Why a simulated fingertip cannot be made.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SimulatedFingertip};
+///
+/// let refused = SimulatedFingertip::new(&Script::default().hold(0.1), Options::default()).unwrap_err();
+/// assert_eq!(refused.to_string(), "segment 1 of the script: nothing touches here; press first");
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SimulationError {
@@ -36,6 +43,15 @@ pub enum SimulationError {
 }
 
 /// What is wrong with a segment.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, ScriptProblem, SimulatedFingertip, SimulationError, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::degrees(170.0, 0.0), 1.0, 0.1);
+/// let refused = SimulatedFingertip::new(&script, Options::default()).unwrap_err();
+/// let problem = ScriptProblem::NotOnActiveSurface;
+/// assert_eq!(refused, SimulationError::Script { segment: 1, problem });
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ScriptProblem {

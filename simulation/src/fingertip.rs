@@ -17,6 +17,16 @@ use crate::timeline::{Phase, Timeline, TrueContact};
 use fingertip_drivers::{Sample, Source};
 
 /// Everything that can be chosen about a simulation.
+///
+/// ```
+/// use fingertip_simulation::{Imperfections, Options, Script, SimulatedFingertip};
+///
+/// // As fast as the sensor can be read, and built as it was drawn.
+/// let options = Options { sample_rate: 5000.0, imperfections: Imperfections::none(), ..Options::default() };
+/// let fingertip = SimulatedFingertip::new(&Script::default().rest(0.1), options)?;
+/// assert_eq!(fingertip.count(), 500);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Samples per second: 1000.
@@ -47,6 +57,20 @@ impl Default for Options {
 }
 
 /// What the electronics read, and what was really so.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().rest(0.1).press(SurfacePoint::TOP, 5.0, 0.1).hold(0.1);
+/// let samples: Vec<_> = SimulatedFingertip::new(&script, Options::default())?.collect();
+/// let (before, after) = (samples[50], samples[250]);
+/// // The gauges answer to the press; the dummy gauge, to nothing but the temperature.
+/// let (rest, pressed) = (before.reading(), after.reading());
+/// assert!((pressed.gauges - rest.gauges).amax() > 0.05);
+/// assert!((pressed.dummy - rest.dummy).abs() < 0.01);
+/// assert!((after.truth.wrench.force().norm() - 5.0).abs() < 1e-9);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulatedSample {
     /// Time \[s\].
@@ -58,6 +82,18 @@ pub struct SimulatedSample {
 }
 
 /// What was really so when a sample was taken.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::TOP, 2.0, 0.1).drag(0.0, (0.5, 0.35), 0.1, 0.05);
+/// let fingertip = SimulatedFingertip::new(&script, Options::default())?;
+/// let slips = fingertip.filter(|sample| sample.truth.slipping);
+/// let contact = slips.last().and_then(|sample| sample.truth.contact).ok_or("it slips")?;
+/// let ratio = contact.contact_force().friction_ratio().ok_or("it presses")?;
+/// assert!((ratio - 0.35).abs() < 1e-3); // what is left once it slides
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Truth {
@@ -86,6 +122,20 @@ impl SimulatedSample {
 
 /// Plays a [`Script`] on the paper's sensor: an iterator of [`SimulatedSample`]s, and a
 /// [`Source`] of seven channels (six gauges and the dummy gauge).
+///
+/// ```
+/// use fingertip_drivers::Source;
+/// use fingertip_simulation::{Options, SimulatedFingertip, standard_session};
+///
+/// // As a driver reads it: seven channels, sample by sample.
+/// let mut fingertip = SimulatedFingertip::new(&standard_session(), Options::default())?;
+/// let sample = fingertip.next_sample()?.ok_or("a sample")?;
+/// assert_eq!((sample.time, sample.value.len()), (Some(0.0), 7));
+/// // The same seed gives the same session.
+/// let again = SimulatedFingertip::new(&standard_session(), Options::default())?.next().ok_or("a sample")?;
+/// assert_eq!(again.raw, sample.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SimulatedFingertip {
     sensor: SimulatedSensor,

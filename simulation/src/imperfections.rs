@@ -23,6 +23,22 @@ use crate::thermal_drift::ThermalDrift;
 /// `calibration_entry`, a share of the row's largest entry under nominal loads. 2 % and 0.1 % give
 /// the paper's 2 % in force. That its errors of *position* stay below 0.1 mm at 10 N, where an
 /// independent error of 2 % would give 0.2 mm, shows that most of the 2 % is common to all entries.
+///
+/// ```
+/// use fingertip_simulation::{Imperfections, Options, Script, SimulatedFingertip};
+///
+/// let matrices = |imperfections| {
+///     let options = Options { imperfections, ..Options::default() };
+///     let fingertip = SimulatedFingertip::new(&Script::default().rest(0.1), options)?;
+///     Ok::<_, fingertip_simulation::SimulationError>((*fingertip.calibrated_matrix(), *fingertip.true_matrix()))
+/// };
+/// // Without any, the calibration is right; as it is by default, it is off by about 2 %.
+/// let (calibrated, exact) = matrices(Imperfections::none())?;
+/// assert_eq!(calibrated, exact);
+/// let (calibrated, exact) = matrices(Imperfections::default())?;
+/// assert_ne!(calibrated, exact);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Imperfections {
     /// Of a gauge along the beam \[m\].

@@ -12,6 +12,22 @@ use crate::script::Segment;
 ///
 /// Accuracy is judged while the script holds still after a press ([`Segment::Hold`]): of single
 /// samples, and of the mean wrench of each hold, as one reads a static load. Slips are judged over the whole session.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SessionScore, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::TOP, 2.0, 0.1).hold(0.1);
+/// let fingertip = SimulatedFingertip::new(&script, Options::default())?;
+/// let mut score = SessionScore::new(&fingertip);
+/// // A pipeline that knows the truth is never wrong.
+/// for sample in fingertip {
+///     let point = sample.truth.contact.map(|contact| contact.point);
+///     score.add(&sample, &sample.truth.wrench, point.as_ref(), false);
+/// }
+/// let report = score.report();
+/// assert!(report.presses[0].force_error < 1e-12 && report.false_alarms.is_empty());
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SessionScore {
     sphere: Sphere<f64>,
@@ -39,6 +55,23 @@ struct Hold {
 }
 
 /// How one press was measured.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SessionScore, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::TOP, 2.0, 0.1).hold(0.1);
+/// let fingertip = SimulatedFingertip::new(&script, Options::default())?;
+/// let mut score = SessionScore::new(&fingertip);
+/// // A pipeline whose forces are 1 % too large.
+/// for sample in fingertip {
+///     let point = sample.truth.contact.map(|contact| contact.point);
+///     score.add(&sample, &(sample.truth.wrench * 1.01), point.as_ref(), false);
+/// }
+/// let press = score.report().presses[0];
+/// assert!((press.force - 2.0).abs() < 1e-9 && (press.force_error - 0.01).abs() < 1e-9);
+/// assert_eq!((press.samples, press.resolved), (100, 100));
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PressScore {
@@ -66,6 +99,21 @@ pub struct PressScore {
 }
 
 /// Presses of about the same force together.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SessionScore, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::TOP, 2.0, 0.1).hold(0.1).squeeze(4.0, 0.1).hold(0.1);
+/// let fingertip = SimulatedFingertip::new(&script, Options::default())?;
+/// let mut score = SessionScore::new(&fingertip);
+/// for sample in fingertip {
+///     let point = sample.truth.contact.map(|contact| contact.point);
+///     score.add(&sample, &sample.truth.wrench, point.as_ref(), false);
+/// }
+/// let levels = score.report().levels();
+/// assert_eq!(levels.iter().map(|level| (level.force.round(), level.presses)).collect::<Vec<_>>(), [(2.0, 1), (4.0, 1)]);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LevelScore {
@@ -86,6 +134,23 @@ pub struct LevelScore {
 }
 
 /// Whether one slip was found.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SessionScore, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::TOP, 2.0, 0.1).drag(0.0, (0.5, 0.35), 0.1, 0.05);
+/// let fingertip = SimulatedFingertip::new(&script, Options::default())?;
+/// let mut score = SessionScore::new(&fingertip);
+/// // Whoever calls each slip 3 ms late.
+/// let onset = fingertip.slip_onsets()[0];
+/// for sample in fingertip {
+///     let called = (sample.time - onset - 3e-3).abs() < 0.5e-3;
+///     score.add(&sample, &sample.truth.wrench, None, called);
+/// }
+/// let slip = score.report().slips[0];
+/// assert!((slip.delay.ok_or("it was called")? - 3e-3).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SlipScore {
@@ -96,6 +161,22 @@ pub struct SlipScore {
 }
 
 /// The result.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SessionScore, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().rest(0.1);
+/// let fingertip = SimulatedFingertip::new(&script, Options::default())?;
+/// let mut score = SessionScore::new(&fingertip);
+/// // A detector that calls a slip where nothing touches.
+/// for sample in fingertip {
+///     score.add(&sample, &sample.truth.wrench, None, sample.time == 0.05);
+/// }
+/// let report = score.report();
+/// assert!(report.presses.is_empty() && report.slips.is_empty());
+/// assert_eq!(report.false_alarms, [0.05]);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SessionReport {

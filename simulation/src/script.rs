@@ -3,6 +3,14 @@
 use crate::surface_point::SurfacePoint;
 
 /// One thing that happens. Forces follow a smooth ramp (`3u² − 2u³`) unless said otherwise.
+///
+/// ```
+/// use fingertip_simulation::{Script, Segment, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::TOP, 2.0, 0.1).drag(0.0, (0.5, 0.35), 0.3, 0.2);
+/// assert_eq!(script.segments[0], Segment::Press { at: SurfacePoint::TOP, force: 2.0, duration: 0.1 });
+/// assert_eq!(script.segments[1].duration(), 0.5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(tag = "do", rename_all = "snake_case"))]
@@ -64,6 +72,19 @@ pub enum Segment {
 }
 
 /// A list of [`Segment`]s, played one after the other.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SimulatedFingertip, SurfacePoint};
+///
+/// // Touch at the top, roll down to the side, let go.
+/// let script = Script::default()
+///     .rest(0.2)
+///     .press(SurfacePoint::TOP, 3.0, 0.1)
+///     .roll(SurfacePoint::degrees(60.0, 90.0), 0.5)
+///     .release(0.1);
+/// assert_eq!(SimulatedFingertip::new(&script, Options::default())?.count(), 900);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[must_use]

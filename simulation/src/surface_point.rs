@@ -3,6 +3,16 @@
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 /// A point of the sphere, seen from its centre.
+///
+/// ```
+/// use fingertip_simulation::SurfacePoint;
+///
+/// let side = SurfacePoint::degrees(90.0, 0.0);
+/// let direction = side.direction(); // the beam is along x, the azimuth counts from y
+/// assert!(direction.x.abs() < 1e-15 && (direction.y - 1.0).abs() < 1e-15);
+/// // A heading of 0 leads away from the top.
+/// assert!((side.tangent(0.0).x + 1.0).abs() < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SurfacePoint {

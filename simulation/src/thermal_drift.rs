@@ -12,6 +12,21 @@ use crate::error::{SimulationError, not_negative, positive};
 /// matched to aluminium feigns about 2 µm/m per kelvin; gauges of one lot differ by 5 % of
 /// that. The amplifiers' offsets drift by 0.25 µV/K, each its own way: that is what the dummy gauge
 /// cannot take off.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SimulatedFingertip, ThermalDrift};
+///
+/// let warms = |thermal_drift| {
+///     let options = Options { thermal_drift, ..Options::default() };
+///     let fingertip = SimulatedFingertip::new(&Script::default().rest(10.0), options)?;
+///     let temperatures: Vec<f64> = fingertip.map(|sample| sample.truth.temperature).collect();
+///     Ok::<_, fingertip_simulation::SimulationError>(temperatures[9_999] - temperatures[0])
+/// };
+/// assert_eq!(warms(ThermalDrift::none())?, 0.0);
+/// // 2 K with a time constant of 300 s, and a draught.
+/// assert!((warms(ThermalDrift::default())? - 0.066).abs() < 0.03);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThermalDrift {
     /// Final warming \[K\].

@@ -14,6 +14,17 @@ use crate::surface_point::{SurfacePoint, great_circle, turned};
 const BREAK_AWAY: f64 = 3e-3;
 
 /// A segment and when it is played.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, Segment, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().rest(0.5).press(SurfacePoint::TOP, 2.0, 0.1);
+/// let fingertip = SimulatedFingertip::new(&script, Options::default())?;
+/// let press = fingertip.phases()[1];
+/// assert!(matches!(press.segment, Segment::Press { .. }));
+/// assert_eq!((press.start, press.end), (0.5, 0.6));
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Phase {
@@ -28,6 +39,17 @@ pub struct Phase {
 }
 
 /// What really touches.
+///
+/// ```
+/// use fingertip_simulation::{Options, Script, SimulatedFingertip, SurfacePoint};
+///
+/// let script = Script::default().press(SurfacePoint::TOP, 2.0, 0.1).hold(0.1);
+/// let last = SimulatedFingertip::new(&script, Options::default())?.last().ok_or("a sample")?;
+/// let contact = last.truth.contact.ok_or("it touches")?;
+/// assert!((contact.point.x - 13e-3).abs() < 1e-12 && (contact.contact_force().normal - 2.0).abs() < 1e-9);
+/// assert_eq!(contact.wrench().force(), contact.force);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrueContact {
     /// Where \[m\].

@@ -18,6 +18,15 @@ use super::world::{HandSample, SimulatedHand};
 use crate::error::SimulationError;
 
 /// What the hand is told beforehand.
+///
+/// ```
+/// use fingertip_simulation::hand::GrippingSettings;
+///
+/// // A careful hand with a slippery object.
+/// let settings = GrippingSettings::<3> { friction: [0.3; 3], normal: (0.5, 10.0), ..GrippingSettings::default() };
+/// assert_eq!(settings.friction[2], 0.3);
+/// assert!(settings.hand.safety > 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrippingSettings<const K: usize> {
     /// The friction coefficient of each finger on the object, as far as it is known (a low quantile).

@@ -8,6 +8,14 @@ use crate::ramp::smooth;
 
 /// One thing that happens. The hand moves along `10u³ − 15u⁴ + 6u⁵`, so that velocity and acceleration have no steps;
 /// everything else follows `3u² − 2u³`.
+///
+/// ```
+/// use fingertip_simulation::hand::HandSegment;
+/// use nalgebra::Vector3;
+///
+/// let lift = HandSegment::Move { by: Vector3::z() * 0.1, duration: 0.8 };
+/// assert_eq!(lift.duration(), 0.8);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(tag = "do", rename_all = "snake_case"))]

@@ -5,6 +5,15 @@ use nalgebra::Vector3;
 
 /// What a touch is made of: a skin that yields along the normal, and LuGre friction (Canudas de Wit & al. 1995) of
 /// force and spin together across it.
+///
+/// ```
+/// use fingertip_simulation::hand::SkinSettings;
+///
+/// // Wet: it holds less, and grips the spin less.
+/// let wet = SkinSettings { static_friction: 0.3, kinetic_friction: 0.2, arm: 1e-3, ..SkinSettings::default() };
+/// assert!(wet.static_friction < SkinSettings::default().static_friction);
+/// assert_eq!(wet.stiffness, 5000.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkinSettings {
     /// Force for a depth \[N/m\]: 5000, a millimetre at 5 N.

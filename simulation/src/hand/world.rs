@@ -15,6 +15,13 @@ use crate::error::{SimulationError, positive};
 use crate::fingertip::Options;
 
 /// The frame in which the world stands still: that of the hand and of the object at the start.
+///
+/// ```
+/// use fingertip_simulation::hand::World;
+/// use fingertip_wrench::Frame;
+///
+/// assert_eq!(World::NAME, "world");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct World;
 
@@ -23,6 +30,15 @@ impl Frame for World {
 }
 
 /// Everything that can be chosen about a simulated hand.
+///
+/// ```
+/// use fingertip_simulation::hand::{HandOptions, SkinSettings};
+///
+/// let mut options = HandOptions::<3>::default();
+/// options.skins[2] = SkinSettings { static_friction: 0.3, ..SkinSettings::default() };
+/// assert_eq!(options.gravity.z, -9.81);
+/// assert_eq!(options.skins[0], SkinSettings::default());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HandOptions<const K: usize> {
     /// The sensors, all of one kind: the seed of each is drawn from this one's.
