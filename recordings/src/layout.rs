@@ -9,6 +9,7 @@ use crate::column_name::{ColumnMeaning, ColumnName};
 use crate::columns::{CONTACT_COLUMNS, ContactColumns, SignalColumns, WrenchColumns, of_sensor};
 use crate::error::HeaderProblem;
 use crate::options::AssumedUnits;
+use crate::shortened::shortened;
 use crate::unit::SignalUnit;
 
 pub use left_out::LeftOut;
@@ -371,12 +372,4 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> =
         names.map(|name| if name.is_empty() { "(without a name)" } else { name }).collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
-/// The text, cut at `limit` characters.
-pub(super) fn shortened(text: &str, limit: usize) -> String {
-    match text.char_indices().nth(limit) {
-        Some((end, _)) => format!("{}…", text.get(..end).unwrap_or_default()),
-        None => text.to_owned(),
-    }
 }

@@ -18,6 +18,7 @@ mod quality;
 mod reader;
 mod row;
 mod row_block;
+mod shortened;
 mod start;
 mod table;
 mod time_watch;

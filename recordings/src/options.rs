@@ -3,7 +3,7 @@
 use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 
 use crate::error::HeaderProblem;
-use crate::layout::shortened;
+use crate::shortened::shortened;
 use crate::timing::Timing;
 
 /// How a recording is read.

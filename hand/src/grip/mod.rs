@@ -12,6 +12,7 @@ mod outcome;
 mod program;
 mod scaled;
 mod step;
+mod workspace;
 
 pub(crate) use assemble::{Assembled, assemble};
 pub(crate) use block::{Block, Row};

@@ -10,7 +10,7 @@ use crate::grip::block::{Block, Residual};
 use crate::grip::interior::Interior;
 use crate::grip::iterate::{Each, Iterate};
 use crate::grip::kernels::add;
-use crate::grip::step::Workspace;
+use crate::grip::workspace::Workspace;
 
 /// Minimise `Σ cost y₀` with `Σ map y = wrench`, `y` in the cones and the half-spaces.
 #[derive(Clone, Copy, Debug)]
@@ -190,7 +190,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         // The best that is nearly there: rounding may stop progress just before the end.
         let mut nearly: Option<(Iterate<T, N, ROWS>, T)> = None;
         let mut missing = self.missing(at);
-        let mut work = Workspace::new(self);
+        let mut work = Workspace::new(&self.blocks);
         let mut steps = 0;
         *midway = None;
         loop {

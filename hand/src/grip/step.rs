@@ -7,11 +7,7 @@ use crate::grip::cholesky::Cholesky;
 use crate::grip::iterate::{Each, Iterate};
 use crate::grip::program::{Missing, Program};
 use crate::grip::scaled::Scaled;
-
-/// What a step works with: kept from step to step, so that nothing is moved.
-pub(crate) struct Workspace<T: Real, const N: usize, const ROWS: usize> {
-    scaled: Each<Option<Scaled<T, ROWS>>, N>,
-}
+use crate::grip::workspace::Workspace;
 
 /// The equations of a step, factored at an iterate.
 struct System<'a, T: Real, const N: usize, const ROWS: usize> {
@@ -30,18 +26,6 @@ struct Direction<T: Real> {
     twist: Vector6<T>,
     tau: T,
     kappa: T,
-}
-
-impl<T: Real, const N: usize, const ROWS: usize> Workspace<T, N, ROWS> {
-    pub(crate) fn new(program: &Program<T, N, ROWS>) -> Self {
-        let mut scaled: Each<_, N> = Each::all(None);
-        scaled.change_with(&program.blocks, |scaled, block| {
-            if block.is_some() {
-                *scaled = Some(Scaled::none());
-            }
-        });
-        Self { scaled }
-    }
 }
 
 impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {

@@ -49,6 +49,20 @@ pub trait FrictionBelief<T: Real> {
 
 /// Takes what is known beforehand, multiplied by [`at_slip`](HandSettings::at_slip) at each slip; the factor goes back to
 /// one with the rate of [`recovery`](HandSettings::recovery).
+///
+/// ```
+/// use fingertip_friction::SlipVerdict;
+/// use fingertip_hand::{FrictionBelief, HandSettings, SlipFactor};
+/// use fingertip_wrench::ContactForce;
+/// use nalgebra::Vector3;
+///
+/// let (force, settings) = (ContactForce::new(2.0, Vector3::x(), 0.0), HandSettings::default());
+/// let mut belief = SlipFactor::default();
+/// let mut after = |slip| belief.rely(0.5, &force, slip, 1e-3, &settings);
+/// assert_eq!(after(SlipVerdict::Holding), 0.5);
+/// assert_eq!(after(SlipVerdict::Slipping), 0.4); // by a factor of 0.8
+/// assert_eq!(after(SlipVerdict::Holding), 0.4);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipFactor<T> {
     factor: T,

@@ -14,9 +14,7 @@ type Wave<T> = [T; 3];
 /// `a₀ + a₁ cos θ + b₁ sin θ + a₂ cos 2θ + b₂ sin 2θ`.
 type Second<T> = [T; 5];
 
-/// Where the circle is cut first, in radians before the first axis: off the axes, where shapes and loads like to be
-/// symmetric. In the middle of the first eighth, that is at this angle, of this cosine and sine.
-pub(super) const MIDDLE_ANGLE: f64 = 0.490_062_274_022_122_8;
+/// Cosine and sine of the angle of the middle of the first eighth, before the first axis, where `zeros` cuts the circle first.
 const MIDDLE: [f64; 2] = [0.882_303_549_132_722_9, 0.470_680_833_673_733_4];
 
 /// How often Newton's method is repeated at most.

@@ -6,7 +6,10 @@ use fingertip_surfaces::numeric::vectors::{larger, smaller};
 use fingertip_wrench::Real;
 
 use super::eighths::{EDGE, Fourth, Signs, halves, on_eighths, signs};
-use super::ring::MIDDLE_ANGLE;
+
+/// Where the circle is cut first, in radians before the first axis: off the axes, where shapes and loads like to be symmetric.
+/// It is the middle of the first eighth.
+const MIDDLE_ANGLE: f64 = 0.490_062_274_022_122_8;
 
 /// A polynomial of degree 4 in the angle has no more zeros.
 pub(super) const MOST: usize = 8;
