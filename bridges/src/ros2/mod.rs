@@ -16,6 +16,7 @@
 //! for others. The library's sockets are open to datagrams from elsewhere all the same; where that matters, a firewall
 //! or a network namespace keeps them out.
 
+mod callers;
 mod frames;
 mod markers;
 mod node;

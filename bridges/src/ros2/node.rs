@@ -5,11 +5,11 @@ use std::net::UdpSocket;
 
 use ros2_client::qos::History;
 use ros2_client::{
-    Context, Message, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile, Server,
-    ServiceMapping, ServiceTypeName,
+    Context, Message, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile, ServiceMapping, ServiceTypeName,
 };
 use rustdds::{DomainParticipantBuilder, Topic};
 
+use super::callers::{Callers, Service};
 use super::raw::Raw;
 use super::{NodeError, Options, Services};
 
@@ -19,6 +19,8 @@ pub(super) const NODE: &str = "live";
 /// A node of ROS 2.
 pub(super) struct Participant {
     pub(super) node: ros2_client::Node,
+    name: NodeName,
+    pub(super) callers: Callers,
 }
 
 /// What DDS does not do, and why.
@@ -50,13 +52,14 @@ impl Participant {
             .same_host_loopback(true)
             .build()
             .map_err(|why| refused("join the domain")(&why))?;
+        let callers = Callers::new(participant.status_listener());
         let context = Context::from_domain_participant(participant);
         let context = context.map_err(|why| refused("make a context")(&why))?;
         // Nobody spins it: there is no log, and the library would map the services of parameters in one way alone.
         let node_options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-        let node = context.new_node(node_name, node_options);
+        let node = context.new_node(node_name.clone(), node_options);
         let node = node.map_err(|why| NodeError::Dds { what: "make a node", why: format!("{why:?}") })?;
-        Ok(Self { node })
+        Ok(Self { node, name: node_name, callers })
     }
 
     /// A service of a type below a namespace, by the mapping that callers have.
@@ -65,15 +68,16 @@ impl Participant {
         services: Services,
         [namespace, base]: [&str; 2],
         [package, kind]: [&str; 2],
-    ) -> Result<Server<Q, R>, NodeError> {
+    ) -> Result<Service<Q, R>, NodeError> {
         let mapping = match services {
             Services::Enhanced => ServiceMapping::Enhanced,
             Services::Cyclone => ServiceMapping::Cyclone,
         };
         let qos = QosProfile::publisher_default().history(History::KeepLast { depth: 10 });
         let (name, kind) = (name(namespace, base)?, ServiceTypeName::new(package, kind));
+        let answers = name.to_dds_name("rr", &self.name, "Reply");
         let server = self.node.create_server(mapping, &name, &kind, qos.clone(), qos);
-        server.map_err(|why| refused("serve")(&why))
+        Ok(Service::new(server.map_err(|why| refused("serve")(&why))?, answers))
     }
 
     /// A service of the node's parameters.
@@ -82,7 +86,7 @@ impl Participant {
         options: &Options,
         base: &str,
         kind: &str,
-    ) -> Result<Server<Q, R>, NodeError> {
+    ) -> Result<Service<Q, R>, NodeError> {
         let below = format!("{}/{NODE}", options.namespace);
         self.server(options.services, [&below, base], ["rcl_interfaces", kind])
     }

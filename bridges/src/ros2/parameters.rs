@@ -10,22 +10,22 @@ use ros2_client::rcl_interfaces::{
     ListParametersResponse, ListParametersResult, SetParametersAtomicallyResponse, SetParametersRequest,
     SetParametersResponse,
 };
-use ros2_client::{ParameterValue, Server};
+use ros2_client::ParameterValue;
 
+use super::callers::{Callers, Service};
 use super::node::Participant;
-use super::services::answer;
-use super::{NodeError, Options, Shared};
+use super::{NodeError, Options};
 use crate::{Parameter, Value};
 
 /// The services of the parameters.
 pub(super) struct Parameters {
     known: Vec<Parameter>,
-    get: Server<GetParametersRequest, GetParametersResponse>,
-    types: Server<GetParameterTypesRequest, GetParameterTypesResponse>,
-    list: Server<ListParametersRequest, ListParametersResponse>,
-    describe: Server<DescribeParametersRequest, DescribeParametersResponse>,
-    set: Server<SetParametersRequest, SetParametersResponse>,
-    set_at_once: Server<SetParametersRequest, SetParametersAtomicallyResponse>,
+    get: Service<GetParametersRequest, GetParametersResponse>,
+    types: Service<GetParameterTypesRequest, GetParameterTypesResponse>,
+    list: Service<ListParametersRequest, ListParametersResponse>,
+    describe: Service<DescribeParametersRequest, DescribeParametersResponse>,
+    set: Service<SetParametersRequest, SetParametersResponse>,
+    set_at_once: Service<SetParametersRequest, SetParametersAtomicallyResponse>,
 }
 
 impl Parameters {
@@ -49,27 +49,30 @@ impl Parameters {
         })
     }
 
-    /// Answers what was asked since the last time.
-    pub(super) fn answer(&self, shared: &Shared) {
+    /// Answers what was asked since the last time. Returns how many answers DDS did not take.
+    pub(super) fn answer(&self, callers: &Callers) -> u64 {
         let known = &self.known;
-        answer(&self.get, shared, |request| GetParametersResponse {
-            values: request.names.iter().map(|name| value(known, name).into()).collect(),
-        });
-        answer(&self.types, shared, |request| GetParameterTypesResponse {
-            values: request.names.iter().map(|name| kind(&value(known, name))).collect(),
-        });
-        answer(&self.list, shared, |request| ListParametersResponse { result: list(known, request) });
-        answer(&self.describe, shared, |request| DescribeParametersResponse {
-            values: request.names.iter().map(|name| describe(known, name)).collect(),
-        });
-        answer(&self.set, shared, |request| SetParametersResponse {
-            results: request.parameter.iter().map(|asked| refusal(known, &asked.name)).collect(),
-        });
-        answer(&self.set_at_once, shared, |request| {
-            let first = request.parameter.first().map(|asked| refusal(known, &asked.name));
-            let nothing = SetParametersResult { successful: true, reason: String::new() };
-            SetParametersAtomicallyResponse { result: first.unwrap_or(nothing) }
-        });
+        let unsent = [
+            self.get.answer(callers, |request| GetParametersResponse {
+                values: request.names.iter().map(|name| value(known, name).into()).collect(),
+            }),
+            self.types.answer(callers, |request| GetParameterTypesResponse {
+                values: request.names.iter().map(|name| kind(&value(known, name))).collect(),
+            }),
+            self.list.answer(callers, |request| ListParametersResponse { result: list(known, request) }),
+            self.describe.answer(callers, |request| DescribeParametersResponse {
+                values: request.names.iter().map(|name| describe(known, name)).collect(),
+            }),
+            self.set.answer(callers, |request| SetParametersResponse {
+                results: request.parameter.iter().map(|asked| refusal(known, &asked.name)).collect(),
+            }),
+            self.set_at_once.answer(callers, |request| {
+                let first = request.parameter.first().map(|asked| refusal(known, &asked.name));
+                let nothing = SetParametersResult { successful: true, reason: String::new() };
+                SetParametersAtomicallyResponse { result: first.unwrap_or(nothing) }
+            }),
+        ];
+        unsent.into_iter().sum()
     }
 }
 

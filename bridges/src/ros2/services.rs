@@ -4,9 +4,10 @@ use alloc::sync::Arc;
 use core::sync::atomic::Ordering;
 use core::time::Duration;
 
-use ros2_client::{Message, Server};
+use ros2_client::Message;
 use serde::{Deserialize, Serialize};
 
+use super::callers::Service;
 use super::node::Participant;
 use super::parameters::Parameters;
 use super::{NodeError, Options, Shared};
@@ -35,21 +36,9 @@ impl Message for Response {}
 /// The services of a node.
 pub(super) struct Serving {
     hub: Hub,
-    tare: Server<Request, Response>,
-    reset: Server<Request, Response>,
+    tare: Service<Request, Response>,
+    reset: Service<Request, Response>,
     parameters: Parameters,
-}
-
-/// Answers the requests that a service has got; what is no request is passed over.
-pub(super) fn answer<Q: Message + 'static, R: Message + 'static>(
-    server: &Server<Q, R>,
-    shared: &Shared,
-    work: impl Fn(&Q) -> R,
-) {
-    while let Ok(Some((id, request))) = server.receive_request() {
-        let unsent = server.send_response(id, work(&request)).is_err();
-        shared.refused.fetch_add(u64::from(unsent), Ordering::Relaxed);
-    }
 }
 
 impl Serving {
@@ -68,21 +57,24 @@ impl Serving {
     }
 
     /// Answers calls. The participant is kept as long as that.
-    pub(super) fn run(self, shared: &Arc<Shared>, participant: Participant) {
+    pub(super) fn run(self, shared: &Arc<Shared>, mut participant: Participant) {
         while !shared.ends.load(Ordering::Relaxed) {
-            answer(&self.tare, shared, |_| match self.hub.tare(PATIENCE) {
+            participant.callers.update();
+            let callers = &participant.callers;
+            let mut unsent = self.tare.answer(callers, |_| match self.hub.tare(PATIENCE) {
                 Ok([fx, fy, fz, tx, ty, tz]) => Response {
                     success: true,
                     message: format!("zero taken off: {fx:?} {fy:?} {fz:?} N, {tx:?} {ty:?} {tz:?} N m"),
                 },
                 Err(why) => Response { success: false, message: why.to_string() },
             });
-            answer(&self.reset, shared, |_| {
+            unsent += self.reset.answer(callers, |_| {
                 self.hub.ask(Command::Reset);
                 let message = "the last contact and what detectors saw are forgotten".to_owned();
                 Response { success: true, message }
             });
-            self.parameters.answer(shared);
+            unsent += self.parameters.answer(callers);
+            shared.refused.fetch_add(unsent, Ordering::Relaxed);
             std::thread::sleep(NAP);
         }
         drop(participant);

@@ -324,6 +324,27 @@ def call(writer, reader, number, *asked, kind=Request, seconds=15):
         time.sleep(0.01)
 
 
+def test_an_answer_waits_for_its_reader(live, folder):
+    """DDS makes the ends known one after the other: a caller whose reader is known late is answered all the same."""
+    peer = Peer()
+    one = start(live, folder)
+    writer = peer.writer("rq/fingertip/resetRequest", Request)
+    ends = time.monotonic() + 15
+    while not writer.get_matched_subscriptions():
+        assert time.monotonic() < ends, "no service"
+        time.sleep(0.05)
+    writer.write(Request([7] * 8, 0, 7, 0))
+    time.sleep(0.3)
+    reader = peer.reader("rr/fingertip/resetReply", Response, RELIABLE)
+    answers = []
+    while not answers:
+        assert time.monotonic() < ends, "no answer"
+        answers = reader.take(10)
+        time.sleep(0.01)
+    assert list(answers[0].guid) == [7] * 8 and answers[0].success
+    one.end()
+
+
 def test_services_take_a_zero_and_forget(live, folder, rows):
     peer = Peer()
     one = start(live, folder)
