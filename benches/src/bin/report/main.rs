@@ -1,10 +1,10 @@
 //! Error against run time, and the stability of every routine.
 //!
-//! `cargo run --release -p fingertip-benches --bin report [-- --quick] [--out FOLDER] [--book FILE]`
+//! `cargo run --release -p fingertip-benches --bin report [-- --quick] [--out FOLDER] [--book FOLDER]`
 //!
 //! Writes `report.html` (diagrams, tables), `report.md` (one page for people in a hurry), and the
 //! diagrams and data as SVG and CSV, by default into `target/report`. `--quick` takes seconds and
-//! only shows that everything works; its times are rough. `--book FILE` also writes the page of the book that has all
+//! only shows that everything works; its times are rough. `--book FOLDER` also writes the pages of the book that have the
 //! diagrams as small multiples.
 //!
 //! Times are by calibrated repetition (`timing`); errors are against arithmetic of 220 bits
@@ -51,9 +51,9 @@ fn options() -> Result<Options, Failure> {
         match argument.to_str() {
             Some("--quick") => options.effort.quick = true,
             Some("--out") => options.folder = arguments.next().ok_or("--out wants a folder")?.into(),
-            Some("--book") => options.book = Some(arguments.next().ok_or("--book wants a file")?.into()),
+            Some("--book") => options.book = Some(arguments.next().ok_or("--book wants a folder")?.into()),
             _ => {
-                let known = "--quick, --out FOLDER and --book FILE";
+                let known = "--quick, --out FOLDER and --book FOLDER";
                 return Err(format!("unknown option {argument:?}; there are {known}").into());
             }
         }
@@ -72,11 +72,14 @@ fn main() -> Result<(), Failure> {
         "Measured on: {machine}. Times are medians of short batches, with quartiles as bars.{pace} \
          Hollow marks are f32, full ones f64."
     );
-    if let Some(file) = book {
-        std::fs::write(file, multiples::page(&format!("{machine}{pace}"), page.groups(), &parts))?;
+    if let Some(book) = book {
+        std::fs::create_dir_all(&book)?;
+        for (name, text) in multiples::pages(&format!("{machine}{pace}"), page.groups(), &parts) {
+            std::fs::write(book.join(name), text)?;
+        }
     }
     let mut text = format!("# Error against run time\n\n{introduction}\n");
-    for (title, said) in parts {
+    for (_, (title, said)) in parts {
         text += &format!("\n## {title}\n\n{said}");
     }
     page.write(&folder, &introduction)?;

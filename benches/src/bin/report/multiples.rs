@@ -1,5 +1,5 @@
-//! The diagrams as small multiples on one page of the book: many in a screen, with one key for those of a part, in
-//! colours that follow the theme of the page.
+//! The diagrams as small multiples on pages of the book, one a part: many in a screen, with one key for those of a part,
+//! in colours that follow the theme of the page.
 
 use core::fmt::Write;
 
@@ -18,20 +18,28 @@ const FRAME: (f64, f64, f64, f64) = (42.0, 292.0, 8.0, 186.0);
 /// How many colours the style sheet of the book has for series.
 const COLOURS: usize = 9;
 
-/// The page: what is said of each part, its diagrams, and where they come from.
-pub(crate) fn page(machine: &str, groups: &[Group], parts: &[Part]) -> String {
-    let mut text = format!(
-        "<!-- Written by the report of the benches: cargo run --release -p fingertip-benches --bin report -- --book \
-         book/src/measures.md -->\n\n# Measures\n\nMeasured on: {machine}. Times are medians of short \
-         batches. Written by `cargo run --release -p fingertip-benches \
-         --bin report`, which also writes larger diagrams and all numbers. Errors are against arithmetic of 220 bits, the \
-         truth from which an input was made, or a stiff solver. Where there is a dashed line, less is better on both axes, \
-         and nothing lies below and left of it. What a scene costs on a microcontroller is counted in \
-         [its firmware](../../examples/cortex-m4/README.md).\n"
+/// The comment at the top of each page.
+const ORIGIN: &str = "<!-- Written by the report of the benches: cargo run --release -p fingertip-benches --bin report -- \
+                      --book book/src/measures -->\n\n";
+
+/// The pages of the book, by the names of their files: one a part, with what is said of it and its diagrams, and one that
+/// leads to them.
+pub(crate) fn pages(
+    machine: &str,
+    groups: &[Group],
+    parts: &[(&'static str, Part)],
+) -> Vec<(String, String)> {
+    let mut first = format!(
+        "{ORIGIN}# Measures\n\nMeasured on: {machine}. Times are medians of short batches. Written by `cargo run --release -p \
+         fingertip-benches --bin report`, which also writes larger diagrams and all numbers. Errors are against arithmetic \
+         of 220 bits, the truth from which an input was made, or a stiff solver. Where there is a dashed line, less is \
+         better on both axes, and nothing lies below and left of it.\n\n"
     );
-    for ((title, diagrams), (_, said)) in groups.iter().zip(parts) {
+    let mut pages = Vec::new();
+    for ((_, diagrams), (name, (title, said))) in groups.iter().zip(parts) {
         // Writing to a String cannot fail.
-        let _ = write!(text, "\n## {title}\n\n");
+        let _ = writeln!(first, "- [{title}]({name}.md)");
+        let mut text = format!("{ORIGIN}# {title}\n\nMeasured on: {machine}. [How](README.md).\n\n");
         let methods = methods(diagrams);
         if !diagrams.is_empty() {
             text.push_str("<div class=\"multiples\">\n");
@@ -41,9 +49,11 @@ pub(crate) fn page(machine: &str, groups: &[Group], parts: &[Part]) -> String {
             text.push_str("</div>\n");
             text.push_str(&key(diagrams, &methods));
         }
-        let _ = write!(text, "\n{}\n", said.trim().replace("\n## ", "\n### "));
+        let _ = write!(text, "\n{}\n", said.trim());
+        pages.push((format!("{name}.md"), text));
     }
-    text
+    pages.push(("README.md".to_owned(), first));
+    pages
 }
 
 /// The name without the precision, which is drawn hollow or full.
