@@ -5,10 +5,10 @@
 //! `cargo run --example custom_surface`
 
 use fingertip::contact::{ContactModel, PointContact};
+use fingertip::nalgebra::Vector3;
 use fingertip::surfaces::testing::SurfaceLaws;
 use fingertip::surfaces::{Implicit, ImplicitSurface, Term};
 use fingertip::wrench::Wrench;
-use nalgebra::Vector3;
 
 /// `(x² + y²)/R² + (z/H)⁴ = 1`: radius R at the mount, height H, nearly flat on top \[m\].
 struct GelTip {

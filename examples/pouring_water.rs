@@ -14,9 +14,9 @@ use fingertip::friction::{
     Bristle, Coulomb, Drive, DropDetector, ForceNoise, GripController, GripSettings, LuGre, SlipVerdict,
     StaticFriction, Stribeck,
 };
+use fingertip::nalgebra::{Vector1, Vector3};
 use fingertip::wrench::{GaussianElimination, Wrench};
 use fingertip_simulation::Design;
-use nalgebra::{Vector1, Vector3};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;

@@ -7,8 +7,8 @@ use fingertip::hand::{
     FingerLimits, FingerSample, FingerState, Grasp, GraspContact, Hand, HandController, HandLoad,
     HandSettings, HandState, ObjectWeight, UncertainWrench,
 };
+use fingertip::nalgebra::{Matrix6, Vector3};
 use fingertip::wrench::{ContactForce, Wrench};
-use nalgebra::{Matrix6, Vector3};
 
 /// Samples of 1 ms.
 const STEP: f64 = 1e-3;

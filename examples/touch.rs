@@ -5,10 +5,10 @@
 use fingertip::Fingertip;
 use fingertip::contact::{PointContact, Resolution};
 use fingertip::friction::Coulomb;
+use fingertip::nalgebra::{Vector3, Vector6};
 use fingertip::surfaces::Sphere;
 use fingertip::wrench::gauge_layout::{GaugeLayout, ThinWalledBeam};
 use fingertip::wrench::{GaussianElimination, Wrench};
-use nalgebra::{Vector3, Vector6};
 
 fn main() -> Result<(), Box<dyn core::error::Error>> {
     // The sensor: here from its drawing (Bicchi & Dario 1987); usually from a calibration file.
