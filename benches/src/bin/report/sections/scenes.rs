@@ -84,7 +84,7 @@ fn here(effort: Effort) -> Result<Table, Failure> {
         }
         let single: Vec<Wrench<f32>> = double
             .iter()
-            .map(|push| Wrench::on_fingertip(push.force.map(|x| x as f32), push.torque.map(|x| x as f32)))
+            .map(|push| Wrench::on_fingertip(push.force().map(|x| x as f32), push.torque().map(|x| x as f32)))
             .collect();
         table.row([
             path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -126,7 +126,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     page.heading(title);
     let rows = footprints(&std::fs::read_to_string(file("book/src/reference/footprint.md"))?)?;
     let mut series = Vec::new();
-    for (contact, posed) in [("point", false), ("point", true), ("soft finger", false), ("soft finger", true)] {
+    for (contact, posed) in [("point", false), ("point", true), ("soft finger", false), ("soft finger", true)]
+    {
         let of = rows.iter().filter(|row| row.contact == contact && row.posed == posed);
         let points: Vec<(f64, f64)> = of.map(|row| (row.instructions, row.flash)).collect();
         let name = format!("{contact}{}", if posed { ", posed" } else { "" });
