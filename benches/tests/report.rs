@@ -58,7 +58,8 @@ fn the_quick_report_writes_its_files() {
         assert!(first.contains(&format!("]({name}.md)")), "{first}");
         let page = read(&format!("book/{name}.md"));
         drawn += page.matches("<svg").count();
-        assert!(!page.contains("NaN") && !page.contains("inf,"), "{name}: a point is none");
+        let mut drawing = page.lines().filter(|line| line.starts_with('<'));
+        assert!(!drawing.any(|line| line.contains("NaN") || line.contains("inf")), "{name}: a point is none");
     }
     assert_eq!(drawn, diagrams.len());
     for name in &diagrams {

@@ -5,7 +5,8 @@ use std::net::UdpSocket;
 
 use ros2_client::qos::History;
 use ros2_client::{
-    Context, Message, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile, ServiceMapping, ServiceTypeName,
+    Context, Message, MessageTypeName, Name, NodeName, NodeOptions, Publisher, QosProfile, ServiceMapping,
+    ServiceTypeName,
 };
 use rustdds::{DomainParticipantBuilder, Topic};
 

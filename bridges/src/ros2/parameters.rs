@@ -3,6 +3,7 @@
 
 use alloc::collections::BTreeSet;
 
+use ros2_client::ParameterValue;
 use ros2_client::parameters::raw::{ParameterDescriptor, ParameterType, SetParametersResult};
 use ros2_client::rcl_interfaces::{
     DescribeParametersRequest, DescribeParametersResponse, GetParameterTypesRequest,
@@ -10,7 +11,6 @@ use ros2_client::rcl_interfaces::{
     ListParametersResponse, ListParametersResult, SetParametersAtomicallyResponse, SetParametersRequest,
     SetParametersResponse,
 };
-use ros2_client::ParameterValue;
 
 use super::callers::{Callers, Service};
 use super::node::Participant;

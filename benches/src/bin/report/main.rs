@@ -74,7 +74,8 @@ fn main() -> Result<(), Failure> {
     );
     if let Some(book) = book {
         std::fs::create_dir_all(&book)?;
-        for (name, text) in multiples::pages(&format!("{machine}{pace}"), page.groups(), &parts) {
+        for (name, text) in multiples::pages(&format!("Measured on: {machine}.{pace}"), page.groups(), &parts)
+        {
             std::fs::write(book.join(name), text)?;
         }
     }

@@ -23,14 +23,14 @@ const ORIGIN: &str = "<!-- Written by the report of the benches: cargo run --rel
                       --book book/src/measures -->\n\n";
 
 /// The pages of the book, by the names of their files: one a part, with what is said of it and its diagrams, and one that
-/// leads to them.
+/// leads to them. `measured` says where. `measured` says where.
 pub(crate) fn pages(
-    machine: &str,
+    measured: &str,
     groups: &[Group],
     parts: &[(&'static str, Part)],
 ) -> Vec<(String, String)> {
     let mut first = format!(
-        "{ORIGIN}# Measures\n\nMeasured on: {machine}. Times are medians of short batches. Written by `cargo run --release -p \
+        "{ORIGIN}# Measures\n\n{measured} Times are medians of short batches. Written by `cargo run --release -p \
          fingertip-benches --bin report`, which also writes larger diagrams and all numbers. Errors are against arithmetic \
          of 220 bits, the truth from which an input was made, or a stiff solver. Where there is a dashed line, less is \
          better on both axes, and nothing lies below and left of it.\n\n"
@@ -39,7 +39,7 @@ pub(crate) fn pages(
     for ((_, diagrams), (name, (title, said))) in groups.iter().zip(parts) {
         // Writing to a String cannot fail.
         let _ = writeln!(first, "- [{title}]({name}.md)");
-        let mut text = format!("{ORIGIN}# {title}\n\nMeasured on: {machine}. [How](README.md).\n\n");
+        let mut text = format!("{ORIGIN}# {title}\n\n{measured} [How](README.md).\n\n");
         let methods = methods(diagrams);
         if !diagrams.is_empty() {
             text.push_str("<div class=\"multiples\">\n");

@@ -1,6 +1,6 @@
 //! The sensor's frame, the surface's frame, and how one turns.
 
-use super::svg::{Point, Svg};
+use super::svg::{Drawing, Point, Svg};
 
 fn axes(svg: &mut Svg, at: Point, right: Point, names: [&str; 2], class: &str) {
     let up = Point::new(-right.y, right.x);
@@ -11,7 +11,7 @@ fn axes(svg: &mut Svg, at: Point, right: Point, names: [&str; 2], class: &str) {
 }
 
 /// A capsule on a sensor.
-pub(super) fn frames() -> String {
+pub(super) fn frames() -> Drawing {
     let mut svg = Svg::new([-34.0, -10.0], [46.0, 49.5], 7.0);
     let corners = [[-12.0, -9.0], [12.0, -9.0], [12.0, 0.0], [-12.0, 0.0]].map(Point::from);
     svg.polygon("sensor", &corners);
@@ -37,7 +37,7 @@ pub(super) fn frames() -> String {
     svg.text("label", Point::new(16.5, -1.0), "start", "all that comes out");
     svg.text("label", Point::new(16.5, 27.0), "start", "surface frame:");
     svg.text("label", Point::new(16.5, 24.4), "start", "keys of [surface]");
-    svg.figure(
+    svg.drawing(
         "A capsule above a sensor; the surface frame sits 25 mm above the sensor frame",
         "The keys of <code>[surface]</code> count in the surface's own frame, <code>[pose]</code> says where that is in the \
          sensor's frame, and everything that comes out is in the sensor's frame.",
@@ -45,7 +45,7 @@ pub(super) fn frames() -> String {
 }
 
 /// A frame that is turned by 30 degrees.
-pub(super) fn turned() -> String {
+pub(super) fn turned() -> Drawing {
     let mut svg = Svg::new([-14.0, -5.5], [40.0, 16.0], 9.0);
     let angle = 30.0_f64.to_radians();
     axes(&mut svg, Point::zeros(), Point::new(1.0, 0.0), ["x", "y"], "sensor-axis");
@@ -62,7 +62,7 @@ pub(super) fn turned() -> String {
     svg.text("label", Point::new(-1.2, -3.4), "middle", "z towards you");
     svg.text("label", Point::new(17.0, 13.0), "start", "rotation_deg = [0, 0, 30]");
     svg.text("label", Point::new(17.0, 10.2), "start", "p = R p′ + t");
-    svg.figure(
+    svg.drawing(
         "Axes x and y, and the same turned counterclockwise by 30 degrees about z",
         "A rotation vector is axis times angle, counterclockwise seen against the axis (the right-hand rule).",
     )

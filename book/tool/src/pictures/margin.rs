@@ -4,14 +4,14 @@ use fingertip::friction::{Coulomb, FrictionModel};
 use fingertip::wrench::ContactForce;
 use nalgebra::Vector3;
 
-use super::svg::{Point, Svg};
+use super::svg::{Drawing, Point, Svg};
 use crate::failure::Failure;
 
 /// Millimetres a newton.
 const NEWTON: f64 = 9.0;
 
 /// Two contact forces, one within the cone and one beyond.
-pub(super) fn margin() -> Result<String, Failure> {
+pub(super) fn margin() -> Result<Drawing, Failure> {
     let coefficient = 0.5;
     let limit = Coulomb::new(coefficient).map_err(|error| Failure::Command(error.to_string()))?;
     let mut svg = Svg::new([-30.0, -6.0], [42.0, 36.0], 9.0);
@@ -37,7 +37,7 @@ pub(super) fn margin() -> Result<String, Failure> {
             if margin > 0.0 { (Point::new(-1.0, 1.6), "end") } else { (Point::new(2.0, 0.5), "start") };
         svg.text("label", tip + beside, anchor, &format!("margin {margin:.2} N").replace('-', "−"));
     }
-    Ok(svg.figure(
+    Ok(svg.drawing(
         "The friction cone with a force within it, whose margin is positive, and one beyond it, whose margin is negative",
         "The slip margin is the distance to the edge of the cone: positive while the contact holds. Here the coefficient is 0.5.",
     ))

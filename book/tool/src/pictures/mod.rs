@@ -11,21 +11,29 @@ use fingertip::wrench::Wrench;
 use nalgebra::Vector3;
 
 use crate::failure::Failure;
-use crate::pages::Made;
+use crate::pages::{self, Made};
 use svg::Point;
 
 /// Radius of the ball that all pictures have \[m\].
 const RADIUS: f64 = 13e-3;
 
-/// All pictures.
+/// All pictures: as parts of the book's pages, and those of the theory, whose chapters are read outside the book too, as images.
 pub(crate) fn pictures() -> Result<Vec<Made>, Failure> {
+    let sheet = pages::sources().join("../style.css");
+    let sheet = std::fs::read_to_string(&sheet).map_err(Failure::file(&sheet))?;
+    let (line, margin) = (sides::line_of_action()?, margin::margin()?);
+    let (frames, grazing) = (frames::frames(), sides::grazing()?);
     Ok(vec![
-        Made { path: "pictures/line-of-action.svg", text: sides::line_of_action()? },
-        Made { path: "pictures/both-sides.svg", text: sides::both_sides()? },
-        Made { path: "pictures/frames.svg", text: frames::frames() },
-        Made { path: "pictures/turned.svg", text: frames::turned() },
-        Made { path: "pictures/margin.svg", text: margin::margin()? },
-        Made { path: "pictures/grazing.svg", text: sides::grazing()? },
+        Made { path: "theory/pictures/line-of-action.svg", text: line.image(&sheet) },
+        Made { path: "theory/pictures/frames.svg", text: frames.image(&sheet) },
+        Made { path: "theory/pictures/margin.svg", text: margin.image(&sheet) },
+        Made { path: "theory/pictures/grazing.svg", text: grazing.image(&sheet) },
+        Made { path: "pictures/line-of-action.svg", text: line.figure() },
+        Made { path: "pictures/both-sides.svg", text: sides::both_sides()?.figure() },
+        Made { path: "pictures/frames.svg", text: frames.figure() },
+        Made { path: "pictures/turned.svg", text: frames::turned().figure() },
+        Made { path: "pictures/margin.svg", text: margin.figure() },
+        Made { path: "pictures/grazing.svg", text: grazing.figure() },
     ])
 }
 

@@ -3,7 +3,7 @@
 use fingertip::wrench::Wrench;
 use nalgebra::Vector3;
 
-use super::svg::{Point, Svg};
+use super::svg::{Drawing, Point, Svg};
 use super::{contact, drawn};
 use crate::failure::Failure;
 
@@ -29,7 +29,7 @@ fn touched(svg: &mut Svg, shift: Point, wrench: &Wrench<f64>) -> Result<(), Fail
 }
 
 /// From six numbers to a place.
-pub(super) fn line_of_action() -> Result<String, Failure> {
+pub(super) fn line_of_action() -> Result<Drawing, Failure> {
     let at = Vector3::new(5.0, 0.0, 12.0) * 1e-3;
     let force = Vector3::new(-1.6, 0.0, -1.2);
     let wrench = Wrench::from_force_at(&at, force);
@@ -43,7 +43,7 @@ pub(super) fn line_of_action() -> Result<String, Failure> {
     svg.text("label contact", Point::new(8.6, 12.4), "start", "contact");
     svg.text("label normal", Point::new(7.4, 20.4), "end", "outward normal");
     svg.text("label", Point::new(1.4, -0.6), "start", "sensor");
-    Ok(svg.figure(
+    Ok(svg.drawing(
         "A ball with a force that points into it, the line of the force, and the contact where the line enters",
         "Force and torque tell the line along which the force acts: it passes the sensor at the distance |m|/|f|. Where it \
          enters the fingertip is the contact.",
@@ -51,7 +51,7 @@ pub(super) fn line_of_action() -> Result<String, Failure> {
 }
 
 /// The same wrench taken right and taken wrong.
-pub(super) fn both_sides() -> Result<String, Failure> {
+pub(super) fn both_sides() -> Result<Drawing, Failure> {
     let at = Vector3::new(5.0, 0.0, 12.0) * 1e-3;
     let load = Wrench::from_force_at(&at, Vector3::new(-1.6, 0.0, -1.2));
     let opposite = Wrench::from_reaction(load.force(), load.torque());
@@ -63,7 +63,7 @@ pub(super) fn both_sides() -> Result<String, Failure> {
         touched(&mut svg, shift, &wrench)?;
         svg.text("title", shift + Point::new(0.0, 24.5), "middle", title);
     }
-    Ok(svg.figure(
+    Ok(svg.drawing(
         "Two balls: one is pressed from above right, the other, by the opposite force on the same line, from below left",
         "The same numbers with the other sign: the line is the same, and the contact is where the opposite force would press, \
          on the far side.",
@@ -71,7 +71,7 @@ pub(super) fn both_sides() -> Result<String, Failure> {
 }
 
 /// A force that grazes the ball.
-pub(super) fn grazing() -> Result<String, Failure> {
+pub(super) fn grazing() -> Result<Drawing, Failure> {
     let mut svg = Svg::new([-30.0, -17.0], [34.0, 26.0], 9.0);
     ball(&mut svg, Point::zeros());
     for (lever, class) in [(0.0, "near"), (0.006, "near"), (0.0115, "far"), (0.0128, "far")] {
@@ -84,7 +84,7 @@ pub(super) fn grazing() -> Result<String, Failure> {
         let up = drawn(&other.point) + Point::new(1.4, if lever < 0.01 { 2.0 } else { -0.5 });
         svg.text("label", up, "start", &format!("{apart:.2} mm"));
     }
-    Ok(svg.figure(
+    Ok(svg.drawing(
         "A ball that is pressed from above at four distances from its middle; the spread of contacts grows towards the rim",
         "The same uncertainty of the line, 0.4 mm, moves the contact the more the flatter the line meets the surface.",
     ))

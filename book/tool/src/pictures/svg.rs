@@ -96,13 +96,55 @@ impl Svg {
         );
     }
 
-    /// The drawing with what stands below it; `said` is for readers who do not see it.
-    pub(super) fn figure(&self, said: &str, caption: &str) -> String {
-        let size = (self.high - self.low) * self.scale;
+    /// The drawing when it is done; `said` is for readers who do not see it, `caption` stands below it.
+    pub(super) fn drawing(&self, said: &'static str, caption: &'static str) -> Drawing {
+        Drawing { size: (self.high - self.low) * self.scale, body: self.body.clone(), said, caption }
+    }
+}
+
+/// A drawing that is done.
+pub(super) struct Drawing {
+    /// In pixels.
+    size: Point,
+    body: String,
+    said: &'static str,
+    caption: &'static str,
+}
+
+/// What the style sheet of the book says of a drawing, for one that stands by itself, on paper of its own: who shows it may have
+/// any theme.
+const STYLE: &str = "\
+svg { --force: #d55e00; --contact: #0072b2; --normal: #009e73; --far: #b0307a; --body: #8884; --paper: #fff; color: #222; }
+@media (prefers-color-scheme: dark) { svg { --force: #ff9a4d; --contact: #6cc4ff; --normal: #43d6a5; --far: #ff8fc7; \
+     --body: #aaa4; --paper: #1c1f24; color: #ddd; } }
+.paper { fill: var(--paper); }
+";
+
+impl Drawing {
+    /// As a part of a page of the book, whose theme it follows.
+    pub(super) fn figure(&self) -> String {
+        let Self { size, body, said, caption } = self;
         format!(
             "<figure class=\"drawing\">\n<svg viewBox=\"0 0 {:.0} {:.0}\" style=\"max-width: {:.0}px\" role=\"img\" \
-             aria-label=\"{said}\">\n{}</svg>\n<figcaption>{caption}</figcaption>\n</figure>\n",
-            size.x, size.y, size.x, self.body
+             aria-label=\"{said}\">\n{body}</svg>\n<figcaption>{caption}</figcaption>\n</figure>\n",
+            size.x, size.y, size.x
+        )
+    }
+
+    /// As an image of its own; `sheet` is the style sheet of the book.
+    pub(super) fn image(&self, sheet: &str) -> String {
+        let Self { size, body, said, .. } = self;
+        let rules: String = sheet
+            .lines()
+            .filter(|line| line.starts_with("figure.drawing ") && !line.contains("figcaption"))
+            .filter(|line| !line.starts_with("figure.drawing svg"))
+            .map(|line| line.replace("figure.drawing ", "") + "\n")
+            .collect();
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0} {1:.0}\" width=\"{0:.0}\" height=\"{1:.0}\" \
+             role=\"img\" aria-label=\"{said}\">\n<style>\n{STYLE}{rules}</style>\n<rect class=\"paper\" width=\"100%\" \
+             height=\"100%\" rx=\"6\"/>\n{body}</svg>\n",
+            size.x, size.y
         )
     }
 }

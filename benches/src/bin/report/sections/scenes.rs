@@ -16,8 +16,6 @@ use crate::plots::{Diagram, Series};
 use crate::table::{Table, shown};
 use crate::timing::{Effort, time};
 
-/// Samples that are taken again and again.
-const COUNT: usize = 1013;
 /// Seconds from a sample to the next.
 const STEP: f64 = 1e-3;
 
@@ -26,26 +24,21 @@ fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
-/// Forces of 2 N from all sides on what is some centimetres large.
-fn pushes() -> Vec<Wrench<f64>> {
+/// So many forces of 2 N from all sides, on what is some centimetres large, that a scene calls a contact; fewer if they are
+/// hard to find.
+fn that_touch(scene: &Scene, count: usize) -> Vec<Wrench<f64>> {
     let mut random = Pcg64Mcg::seed_from_u64(5);
     let mut vector = |size: f64| Vector3::from_fn(|_, _| random.random_range(-size..size));
-    let mut push = || {
+    let pushes = core::iter::repeat_with(|| {
         let force = 2.0 * vector(1.0).normalize();
         Wrench::on_fingertip(force, vector(0.008).cross(&force) + vector(5e-4))
-    };
-    (0..20 * COUNT).map(|_| push()).collect()
-}
-
-/// Of the pushes those that a scene calls a contact, over and over.
-fn that_touch(scene: &Scene, pushes: &[Wrench<f64>]) -> Vec<Wrench<f64>> {
-    let mut pipeline = scene.pipeline();
-    let touching = pushes.iter().filter(|push| {
-        pipeline.reset();
-        pipeline.sense(**push, STEP).contact().is_some()
     });
-    let touching: Vec<_> = touching.copied().collect();
-    touching.iter().cycle().take(COUNT).copied().collect()
+    let mut pipeline = scene.pipeline();
+    let touches = |push: &Wrench<f64>| {
+        pipeline.reset();
+        pipeline.sense(*push, STEP).contact().is_some()
+    };
+    pushes.take(40 * count).filter(touches).take(count).collect()
 }
 
 /// What a sample takes \[ns\].
@@ -74,11 +67,10 @@ fn examples() -> Result<Vec<PathBuf>, Failure> {
 
 /// Each scene of the examples on this computer.
 fn here(effort: Effort) -> Result<Table, Failure> {
-    let pushes = pushes();
     let mut table = Table::new(&["scene", "ns a sample, f64", "ns a sample, f32"]);
     for path in examples()? {
         let scene = Scene::load(&path)?;
-        let double = that_touch(&scene, &pushes);
+        let double = that_touch(&scene, effort.choose(5, 251));
         if double.is_empty() {
             return Err(format!("no push touches the scene {}", path.display()).into());
         }
