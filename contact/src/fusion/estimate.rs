@@ -33,6 +33,29 @@ use crate::uncertainty::is_covariance;
 /// **What cannot be told**: forces that cancel within the grip of one fingertip ([`Fused::internal_forces`]
 /// of them). The wrench says nothing of these; what is reported there comes from the array and from
 /// friction alone, and [`FusedContact::share_from_wrench`] says how much of a force is.
+///
+/// ```
+/// use fingertip_contact::{ArrayContact, Fusion};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix3, Matrix6, Vector3};
+///
+/// // A ball of 10 mm between two fingers: the array feels 2 N ± 0.2 N on either side.
+/// let reading = |x: f64| ArrayContact {
+///     centroid: Vector3::new(x, 0.0, 0.0),
+///     centroid_covariance: Matrix3::identity() * 1e-8,
+///     normal_force: 2.0,
+///     normal_deviation: 0.2,
+/// };
+/// // The wrench, known to 10 mN and 0.1 N·mm, says that together they carry 1 N.
+/// let noise = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let readings = [reading(0.01), reading(-0.01)];
+/// let [right, left] = Fusion::new(noise, 0.5)?.estimate(&Sphere::centred(0.01)?, &wrench, &readings)?.contacts;
+/// assert!((right.force - Vector3::new(-2.0, 0.0, -0.5)).norm() < 1e-2);
+/// assert!((left.force - Vector3::new(2.0, 0.0, -0.5)).norm() < 1e-2);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fusion<T: Real> {
     wrench_covariance: Matrix6<T>,
@@ -40,6 +63,27 @@ pub struct Fusion<T: Real> {
 }
 
 /// One contact of the estimate.
+///
+/// ```
+/// # use fingertip_contact::{ArrayContact, Fusion};
+/// # use fingertip_surfaces::Plane;
+/// # use fingertip_wrench::Wrench;
+/// # use nalgebra::{Matrix3, Matrix6, Vector3};
+/// # let pad = Plane::new(Vector3::zeros(), Vector3::z())?;
+/// # let sensor = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// # let wrench = Wrench::on_fingertip(Vector3::new(0.2, 0.0, -1.0), Vector3::zeros());
+/// // The array knows the force to 0.1 N, the sensor to 10 mN: of a single contact nearly all is told by the wrench.
+/// let reading = ArrayContact {
+///     centroid: Vector3::zeros(),
+///     centroid_covariance: Matrix3::identity() * 1e-8,
+///     normal_force: 1.05,
+///     normal_deviation: 0.1,
+/// };
+/// let [contact] = Fusion::new(sensor, 0.5)?.estimate(&pad, &wrench, &[reading])?.contacts;
+/// assert!((contact.force - Vector3::new(0.2, 0.0, -1.0)).norm() < 0.02 && contact.share_from_wrench > 0.9);
+/// assert!(contact.force_covariance[(2, 2)] < 1e-4);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -66,6 +110,32 @@ pub struct FusedContact<T: Real> {
 }
 
 /// The estimate.
+///
+/// ```
+/// # use fingertip_contact::{ArrayContact, Fusion};
+/// # use fingertip_surfaces::Plane;
+/// # use fingertip_wrench::Wrench;
+/// # use nalgebra::{Matrix3, Matrix6, Vector3};
+/// # let pad = Plane::new(Vector3::zeros(), Vector3::z())?;
+/// # let sensor = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// # let fusion = Fusion::new(sensor, 0.5)?;
+/// # let reading = |x: f64| ArrayContact {
+/// #     centroid: Vector3::new(x, 0.0, 0.0),
+/// #     centroid_covariance: Matrix3::identity() * 1e-8,
+/// #     normal_force: 1.0,
+/// #     normal_deviation: 0.1,
+/// # };
+/// // The array feels 1 N ± 0.1 N at each of two places, 6 mm apart.
+/// let readings = [reading(-0.003), reading(0.003)];
+/// let two_newtons = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+/// let fused = fusion.estimate(&pad, &two_newtons, &readings)?;
+/// // Forces that pull the two apart cancel; of these the wrench says nothing.
+/// assert!(fused.settled && fused.internal_forces == 1 && fused.disagreement < 1.0);
+/// // A sensor that says 4 N tells of something that the array does not see.
+/// let four_newtons = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -4.0), Vector3::zeros());
+/// assert!(fusion.estimate(&pad, &four_newtons, &readings)?.disagreement > 100.0);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fused<T: Real, const K: usize> {
     /// In the order of the readings.
