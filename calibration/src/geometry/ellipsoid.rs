@@ -10,6 +10,32 @@ use super::touches::{directions, radius_and_centre, shifts, wrenches};
 use super::{Fitted, GeometryError, Touch, WrenchNoise};
 
 /// The semi-axes and centre of an ellipsoid whose axes are those of the sensor frame.
+///
+/// ```
+/// # use fingertip_calibration::geometry::Touch;
+/// # use fingertip_calibration::nalgebra::Vector3;
+/// # use fingertip_wrench::Wrench;
+/// # // 2 N inward and 0.5 N aside, at forty places of an ellipsoid.
+/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<Touch> {
+/// #     let touch = |k: i32| {
+/// #         let (around, up) = (2.4 * f64::from(k), f64::from(k - 15) / 25.0);
+/// #         let normal = Vector3::new(around.cos(), around.sin(), up).normalize();
+/// #         let squared = semi_axes.component_mul(&semi_axes).component_mul(&normal);
+/// #         let point = centre + squared / squared.dot(&normal).sqrt();
+/// #         let aside = normal.cross(&Vector3::new(0.3, f64::from(k).sin(), 0.8)).normalize() * 0.5;
+/// #         Touch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
+/// #     };
+/// #     (0..40).map(touch).collect()
+/// # };
+/// use fingertip_calibration::geometry::{EllipsoidParameters, Fitted, WrenchNoise, fit_aligned_ellipsoid};
+///
+/// // Touches on an ellipsoid of 8, 10 and 14 mm, 30 mm above the sensor.
+/// let touches = touched(Vector3::new(0.008, 0.010, 0.014), Vector3::new(0.0, 0.0, 0.03));
+/// let fitted: Fitted<EllipsoidParameters> = fit_aligned_ellipsoid(&touches, &WrenchNoise::exact_forces())?;
+/// assert!((fitted.shape.semi_axes - Vector3::new(0.008, 0.010, 0.014)).norm() < 1e-6);
+/// assert!((fitted.shape.centre - Vector3::new(0.0, 0.0, 0.03)).norm() < 1e-6);
+/// # Ok::<(), fingertip_calibration::geometry::GeometryError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EllipsoidParameters {
     /// Semi-axes along x, y, z \[m\].
@@ -73,6 +99,34 @@ fn positive(radius: f64) -> Result<f64, GeometryError> {
 }
 
 /// An ellipsoid anywhere in the sensor frame.
+///
+/// ```
+/// # use fingertip_calibration::geometry::Touch;
+/// # use fingertip_calibration::nalgebra::Vector3;
+/// # use fingertip_wrench::Wrench;
+/// # // 2 N inward and 0.5 N aside, at forty places of an ellipsoid.
+/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<Touch> {
+/// #     let touch = |k: i32| {
+/// #         let (around, up) = (2.4 * f64::from(k), f64::from(k - 15) / 25.0);
+/// #         let normal = Vector3::new(around.cos(), around.sin(), up).normalize();
+/// #         let squared = semi_axes.component_mul(&semi_axes).component_mul(&normal);
+/// #         let point = centre + squared / squared.dot(&normal).sqrt();
+/// #         let aside = normal.cross(&Vector3::new(0.3, f64::from(k).sin(), 0.8)).normalize() * 0.5;
+/// #         Touch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
+/// #     };
+/// #     (0..40).map(touch).collect()
+/// # };
+/// use fingertip_calibration::geometry::{Fitted, PosedEllipsoid, WrenchNoise, fit_ellipsoid};
+///
+/// // Touches on an ellipsoid of 8, 10 and 14 mm, of which nothing is known beforehand.
+/// let touches = touched(Vector3::new(0.008, 0.010, 0.014), Vector3::new(0.0, 0.0, 0.03));
+/// let fitted: Fitted<PosedEllipsoid> = fit_ellipsoid(&touches, &WrenchNoise::exact_forces())?;
+/// // Its semi-axes from the longest, the first along z of the sensor.
+/// assert!((fitted.shape.semi_axes - Vector3::new(0.014, 0.010, 0.008)).norm() < 1e-6);
+/// assert!(fitted.shape.sensor_from_ellipsoid.rotation().column(0).z.abs() > 0.999_999);
+/// assert!(fitted.shape.surface().is_ok());
+/// # Ok::<(), fingertip_calibration::geometry::GeometryError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PosedEllipsoid {
     /// Semi-axes from the longest to the shortest \[m\]: x, y, z of the ellipsoid's own frame.
