@@ -113,7 +113,7 @@ impl Information {
 /// // Weights along two axes, in nominal loads, zeros known.
 /// let candidates = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1.0]);
 /// // The calibration shall add half the error of one reading at most: four loads on each axis.
-/// let plan: Plan = plan(&candidates, false, 0.500_001, 100)?;
+/// let plan: Plan = plan(&candidates, false, 0.5, 100)?;
 /// assert_eq!(plan.order.len(), 8);
 /// assert_eq!(plan.order.iter().filter(|candidate| **candidate == 0).count(), 4);
 /// # Ok::<(), fingertip_calibration::fit::FitError>(())

@@ -14,12 +14,12 @@ use super::ContactWeight;
 /// // Six gauges, one for each axis, of which the first gives four times the signal of the others.
 /// let mut rows: [Vector6<f64>; 6] = core::array::from_fn(|i| Matrix6::identity().column(i).into_owned());
 /// rows[0] *= 4.0;
-/// let gram = gram(&rows, &Vector6::repeat(1.0));
-/// assert!((Criterion::ConditionNumber.of(&gram) - 4.0).abs() < 1e-9);
-/// // A sensor that is blind to nothing is better than one that nearly is.
+/// let first = gram(&rows, &Vector6::repeat(1.0));
+/// assert!((Criterion::ConditionNumber.of(&first) - 4.0).abs() < 1e-9);
+/// // A sensor that is nearly blind to an axis is worse.
 /// rows[1] *= 0.01;
-/// let worse = fingertip_calibration::design::gram(&rows, &Vector6::repeat(1.0));
-/// assert!(Criterion::Trace.of(&worse) > Criterion::Trace.of(&gram));
+/// let worse = gram(&rows, &Vector6::repeat(1.0));
+/// assert!(Criterion::Trace.of(&worse) > Criterion::Trace.of(&first));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "there is one for a whole search")]

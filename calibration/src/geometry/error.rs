@@ -26,7 +26,7 @@ use crate::linear::Unobserved;
 /// # };
 /// use fingertip_calibration::geometry::{GeometryError, WrenchNoise, fit_sphere};
 ///
-/// // Two touches leave a sphere open, and a normal of zero is none.
+/// // One touch leaves a sphere open, and a normal of zero is none.
 /// let mut touches = touched(Vector3::repeat(0.01), Vector3::zeros());
 /// assert!(fit_sphere(&touches[..1], &WrenchNoise::exact_forces()).is_err());
 /// touches[7].normal = Vector3::zeros();

@@ -124,7 +124,8 @@ impl fmt::Display for Suspicion {
             }
             Mistake::Unit { axes, factor, confusion } => {
                 let names: Vec<String> = axes.iter().map(ToString::to_string).collect();
-                let (way, factor) = if *factor < 1.0 { ("small", factor.recip()) } else { ("large", *factor) };
+                let (way, factor) =
+                    if *factor < 1.0 { ("small", factor.recip()) } else { ("large", *factor) };
                 write!(
                     formatter,
                     "{} too {way} by a factor of {factor:.6}: {confusion} seem to be confused",
