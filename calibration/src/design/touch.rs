@@ -19,6 +19,8 @@ use super::DesignError;
 /// // A torque about y moves the contact along x, by 1/2 N.
 /// let jacobian = touch.jacobian();
 /// assert!((jacobian[(0, 4)] - 0.5).abs() < 1e-12 && jacobian.row(2).norm() < 1e-12);
+/// // A force of 1 N along x, on an arm of 10 mm, shifts it by −5 mm.
+/// assert!((jacobian[(0, 0)] + 5e-3).abs() < 1e-12);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
