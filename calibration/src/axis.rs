@@ -6,6 +6,16 @@ use fingertip_wrench::units::{ForceUnit, TorqueUnit};
 use serde::{Deserialize, Serialize};
 
 /// One component of a wrench.
+///
+/// ```
+/// use fingertip_calibration::Axis;
+///
+/// let axis = Axis::from_name("Mz").ok_or("unknown")?;
+/// assert_eq!((axis, axis.name(), axis.unit(), axis.index()), (Axis::Tz, "tz", "N·m", 5));
+/// assert_eq!(Axis::Tz.unit_size("Nmm"), Some(1e-3));
+/// assert_eq!(Axis::ALL.iter().filter(|axis| axis.is_torque()).count(), 3);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {

@@ -21,6 +21,24 @@ use crate::report::{
 };
 
 /// A calibration, what it was fitted to, and how good it is.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::file::Verdict;
+/// use fingertip_calibration::model::Options;
+/// use fingertip_calibration::{Calibration, calibrate};
+///
+/// let calibration: Calibration = calibrate(&table, &Options::default())?;
+/// assert_eq!(calibration.report.verdict, Verdict::Good);
+/// // 0.5 V on the third gauge, of 0.1 V/N.
+/// let newtons = calibration.to_file()?.load(&[0.0, 0.0, 0.5])?;
+/// assert!((newtons[2] - 5.0).abs() < 0.01 && newtons[0].abs() < 0.01);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// The fitted sensor.

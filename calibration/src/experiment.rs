@@ -11,6 +11,18 @@ use crate::linear::Triangular;
 /// (Wald 1943; Fedorov 1972): it is the one about whose signals the fit knows least. A small
 /// multiple of the identity (10⁻⁶) makes the beginning well defined, where loads that add a new direction
 /// come first.
+///
+/// ```
+/// use fingertip_calibration::experiment::Information;
+///
+/// // Two axes, in nominal loads, zeros known; each was loaded, the first twice as strongly.
+/// let mut information = Information::new(2, false);
+/// assert!(information.add(&[1.0, 0.0]) && information.add(&[0.0, 0.5]));
+/// // The variance of a signal: that of one reading on the first axis, four times as much on the second.
+/// let variance = |load| information.variance(load).ok_or("wrong length");
+/// assert!((variance(&[1.0, 0.0])? - 1.0).abs() < 1e-4 && (variance(&[0.0, 1.0])? - 4.0).abs() < 1e-3);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Information {
     inverse: DMatrix<f64>,
@@ -18,6 +30,20 @@ pub struct Information {
 }
 
 /// What one more load would bring.
+///
+/// ```
+/// use fingertip_calibration::experiment::{Gain, Information};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// let mut information = Information::new(2, false);
+/// information.add(&[1.0, 0.0]);
+/// // Again along the first axis, or along the second, which was never loaded?
+/// let candidates = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1.0]);
+/// let ranked: Vec<Gain> = information.rank(&candidates);
+/// assert_eq!([ranked[0].candidate, ranked[1].candidate], [1, 0]);
+/// // The same load again doubles what is known along it.
+/// assert!((ranked[1].log_determinant - 2.0_f64.ln()).abs() < 1e-5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gain {
     /// Which of the candidates.
@@ -79,6 +105,19 @@ impl Information {
 }
 
 /// A plan of loads that is good enough.
+///
+/// ```
+/// use fingertip_calibration::experiment::{Plan, plan};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// // Weights along two axes, in nominal loads, zeros known.
+/// let candidates = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1.0]);
+/// // The calibration shall add half the error of one reading at most: four loads on each axis.
+/// let plan: Plan = plan(&candidates, false, 0.5, 100)?;
+/// assert_eq!(plan.order.len(), 8);
+/// assert_eq!(plan.order.iter().filter(|candidate| **candidate == 0).count(), 4);
+/// # Ok::<(), fingertip_calibration::fit::FitError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Candidates in the order in which to apply them; one may stand several times.

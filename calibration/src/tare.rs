@@ -22,6 +22,24 @@ const PARTS: usize = 16;
 const FEWEST: usize = 8;
 
 /// A calibration with a new zero, and what the recording of rest looked like.
+///
+/// ```
+/// use fingertip_calibration::file::{CalibrationFile, SignalUnit};
+/// use fingertip_calibration::nalgebra::DMatrix;
+/// use fingertip_calibration::tare::Tared;
+///
+/// // 2 V under the nominal loads, 10 N and 0.1 N·m; no zero yet.
+/// let nominal = vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1];
+/// let matrix = DMatrix::from_diagonal_element(6, 6, 2.0);
+/// let file = CalibrationFile::new(matrix, nominal, vec![0.0; 6], SignalUnit::Volt)?;
+/// // A hundred readings at rest, around 0.3 V.
+/// let volts = DMatrix::from_fn(100, 6, |i, j| 0.3 + 1e-4 * ((7 * i + 3 * j) as f64).sin());
+/// let tared: Tared = file.tared_by(&volts, false)?;
+/// assert!((tared.file.zero[0] - 0.3).abs() < 1e-4 && tared.samples == 100);
+/// // With the old zero they were 0.3 V · 10 N / 2 V.
+/// assert!((tared.load_before[0] - 1.5).abs() < 1e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tared {
     /// The calibration with the new zero and noise.
@@ -41,6 +59,22 @@ pub struct Tared {
 }
 
 /// Why there is no new zero.
+///
+/// ```
+/// use fingertip_calibration::file::{CalibrationFile, SignalUnit};
+/// use fingertip_calibration::nalgebra::DMatrix;
+/// use fingertip_calibration::tare::RestError;
+///
+/// let nominal = vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1];
+/// let matrix = DMatrix::from_diagonal_element(6, 6, 2.0);
+/// let file = CalibrationFile::new(matrix, nominal, vec![0.0; 6], SignalUnit::Volt)?;
+/// // Readings that rise by 1 V, which are 5 N: somebody pushed.
+/// let volts = DMatrix::from_fn(100, 6, |i, _| 0.01 * i as f64);
+/// assert!(matches!(file.tared_by(&volts, false), Err(RestError::NotAtRest { .. })));
+/// // If that is to be so, the mean is taken.
+/// assert!(file.tared_by(&volts, true).is_ok());
+/// # Ok::<(), fingertip_calibration::file::FileError>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RestError {

@@ -1,5 +1,6 @@
 //! The `fingertip` command: what the crates do, from files to files.
-#![doc = include_str!("../README.md")]
+// The examples of its README are commands.
+#![cfg_attr(not(doctest), doc = include_str!("../README.md"))]
 
 extern crate alloc;
 

@@ -8,6 +8,26 @@ use super::Foil;
 use crate::design::{DesignError, TubeLayout};
 
 /// One gauge on the sheet. Places are \[m\]: from the left edge to the right, and behind the origin downwards.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::bench::{Foil, Outline, Unrolled};
+///
+/// let unrolled = Unrolled::new(&layout, 30e-3, &Foil::default(), 0.1e-3)?;
+/// let first: &Outline = &unrolled.outlines[0];
+/// // Its middle is where the gauge is, and its carrier 4 mm long.
+/// assert!((first.centre[1] - first.gauge.z).abs() < 1e-12);
+/// assert!((first.centre[0] - unrolled.place(first.gauge.theta)).abs() < 1e-12);
+/// let [a, b] = first.axis;
+/// assert!(((a[0] - b[0]).hypot(a[1] - b[1]) - 8e-3).abs() < 1e-3);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outline {
     /// The gauge itself.
@@ -28,6 +48,24 @@ pub struct Outline {
 /// as long as that circle, and the arc of an angle θ on it is `(R + s/2 + p/2)·θ` for the mean radius R, the wall s
 /// and the paper p. Gauges lie on the wall itself, at R + s/2; their outlines are drawn so that they cover them when the
 /// sheet is wrapped, a little longer around (`docs/theory/calibration.md#a-template-that-is-wrapped`).
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::bench::{Foil, Unrolled};
+///
+/// // A tube of 6.55 mm with a wall of 0.2 mm, clamped 30 mm behind the origin, wrapped in paper of 0.1 mm.
+/// let unrolled = Unrolled::new(&layout, 30e-3, &Foil::default(), 0.1e-3)?;
+/// assert!((unrolled.outer - 6.65e-3).abs() < 1e-12);
+/// // The paper bends about its middle: 6.7 mm.
+/// assert!((unrolled.length() - core::f64::consts::TAU * 6.7e-3).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unrolled {
     /// Outer radius of the tube \[m\].

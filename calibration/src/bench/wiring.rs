@@ -6,6 +6,18 @@ use crate::sheet::{Anchor, Pen, Sheet};
 use super::Foil;
 
 /// Where the wires of a bridge go.
+///
+/// ```
+/// use fingertip_calibration::bench::BridgeNode;
+/// use fingertip_calibration::design::Bridge;
+///
+/// // The gauge that a half bridge adds runs from the supply to the negative output.
+/// let ends = Bridge::half(0, 1).arms().iter().position(|arm| *arm == Some(0)).map(|arm| BridgeNode::ARMS[arm]);
+/// assert_eq!(ends, Some([BridgeNode::Supply, BridgeNode::Minus]));
+/// // Each node joins two arms.
+/// let joined = BridgeNode::ARMS.as_flattened().iter().filter(|node| **node == BridgeNode::Plus).count();
+/// assert_eq!(joined, 2);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BridgeNode {
     /// The supply.

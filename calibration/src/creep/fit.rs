@@ -8,6 +8,30 @@ use super::{Creep, CreepError, averages};
 use crate::loads::LoadTable;
 
 /// What was found of a sensor's creep.
+///
+/// ```
+/// use fingertip_calibration::creep::{CreepFit, fit};
+/// use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+///
+/// // 12 cycles: 20 s without load, 20 s with 10 N and less; a gauge of 0.1 V/N of which a solid with 8 s adds 4 %.
+/// let newtons = DMatrix::from_fn(480, 1, |second, _| {
+///     if second % 40 < 20 { 0.0 } else { 10.0 - 0.5 * (second / 40) as f64 }
+/// });
+/// let mut lasting = 0.0;
+/// let volts = newtons.map(|newtons| {
+///     let signal = 0.1 * newtons;
+///     lasting += (signal - lasting) * (1.0 - (-1.0_f64 / 8.0).exp());
+///     signal + 0.04 * lasting
+/// });
+/// let mut table = LoadTable::new(&[Axis::Fz], newtons, volts, SignalUnit::Volt)?;
+/// table.times = Some((0..480).map(f64::from).collect());
+/// let found: CreepFit = fit(&table, false)?;
+/// let [without, with] = found.left_out_percent;
+/// assert!(found.cycles == 12 && with < 0.3 * without);
+/// // About 8 s.
+/// assert!(found.creep.times_s.iter().any(|seconds| (seconds / 8.0 - 1.0).abs() < 0.3));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct CreepFit {
     /// Times and shares; without any if none predicts load cycles that were left out better than no creep does.

@@ -16,6 +16,26 @@ use crate::loads::LoadTable;
 
 /// Times over which a sensor creeps, and the share of a lasting signal that each takes off: see
 /// [`CreepCompensation`].
+///
+/// ```
+/// use fingertip_calibration::creep::Creep;
+/// use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+///
+/// // Of a lasting signal 5 % is creep, within 10 s.
+/// let creep = Creep { times_s: vec![10.0], shares: vec![vec![0.05]] };
+/// // 10 N of 0.1 V/N for a minute, read each second; at 0 s there was no load.
+/// let newtons = DMatrix::from_fn(60, 1, |second, _| if second == 0 { 0.0 } else { 10.0 });
+/// let volts = newtons.map_with_location(|second, _, newtons| {
+///     0.1 * newtons * 0.95 / (1.0 - 0.05 * (1.0 + 0.05 - (-(second as f64) / 10.0).exp()))
+/// });
+/// let mut table = LoadTable::new(&[Axis::Fz], newtons, volts, SignalUnit::Volt)?;
+/// table.times = Some((0..60).map(f64::from).collect());
+/// let settled = creep.taken_off(&table)?;
+/// // Less of the reading is left the longer the load lasts: in the end 95 % of it.
+/// assert!((settled.signals[59] / table.signals[59] - 0.95).abs() < 2e-3);
+/// assert!(settled.signals[1] / table.signals[1] > 0.99);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Creep {

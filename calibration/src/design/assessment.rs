@@ -6,6 +6,23 @@ use super::ContactWeight;
 use crate::linear::{Singular, pseudo_inverse};
 
 /// The figures of a normalised sensor matrix.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::Assessment;
+///
+/// // The paper's sensor at 1 V for each unit of strain: a condition number of 4.18.
+/// let assessment = Assessment::new(&layout.normalised(1.0, &loads)?, None).ok_or("not finite")?;
+/// assert!((assessment.condition_number - 4.183).abs() < 1e-2);
+/// assert!(assessment.worst_sensitivity() > 0.0 && assessment.contact_error.is_none());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assessment {
     /// `N_c = σ_max/σ_min`, infinite if the sensor is blind to some load.

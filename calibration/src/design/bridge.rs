@@ -16,6 +16,20 @@ use super::DesignError;
 ///
 /// To first order the output is `Vs·K/4·(ε0 − ε1 + ε2 − ε3)` with the gauge factor `K`; what is
 /// in the brackets is called the bridge's *strain* here.
+///
+/// ```
+/// use fingertip_calibration::design::Bridge;
+/// use fingertip_calibration::nalgebra::Vector6;
+///
+/// // Two gauges on opposite sides of a beam: bending stretches one and shortens the other, a pull stretches both.
+/// let above = Vector6::new(2e-6, 0.0, 5e-6, 0.0, 0.0, 0.0);
+/// let below = Vector6::new(2e-6, 0.0, -5e-6, 0.0, 0.0, 0.0);
+/// let bridge = Bridge::half(0, 1);
+/// let strain = bridge.response(&[above, below])?;
+/// assert!(strain[0].abs() < 1e-15 && (strain[2] - 10e-6).abs() < 1e-15);
+/// assert!(bridge.compensates_temperature() && !Bridge::quarter(0).compensates_temperature());
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bridge {
@@ -118,6 +132,15 @@ impl Bridge {
 }
 
 /// What turns strain into volts.
+///
+/// ```
+/// use fingertip_calibration::design::Excitation;
+///
+/// // 5 V, a gauge factor of 2 and an amplifier of 500: 1250 V for each unit of strain, 1.25 mV for a millionth.
+/// let excitation = Excitation { supply: 5.0, gauge_factor: 2.0, amplifier_gain: 500.0 };
+/// assert!((excitation.gain() - 1250.0).abs() < 1e-9);
+/// assert!(Excitation { supply: 0.0, ..excitation }.validate().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Excitation {

@@ -16,6 +16,18 @@ use super::{DesignError, Touch};
 /// shape enters by its normal only). With channels of independent noise of standard deviation s,
 /// `Σ = s²(CᵀC)⁻¹`, and the rms error of the position is `s·√(tr(W(CᵀC)⁻¹))`: first order in the noise, hence
 /// too small near grazing and near the threshold of force.
+///
+/// ```
+/// use fingertip_calibration::design::ContactWeight;
+/// use fingertip_calibration::nalgebra::{Matrix6, Vector6};
+///
+/// // Touches of 1 N without friction, all over a half sphere of 10 mm.
+/// let weight = ContactWeight::on_sphere(0.01, core::f64::consts::FRAC_PI_2, 0.0, 1.0)?;
+/// // Torques of 0.1 N·mm make 0.1 mm in each of the two directions along the surface.
+/// let torques = Matrix6::from_diagonal(&Vector6::new(0.0, 0.0, 0.0, 1e-8, 1e-8, 1e-8));
+/// assert!((weight.position_error(&torques) - 2.0_f64.sqrt() * 1e-4).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactWeight {
     matrix: Matrix6<f64>,

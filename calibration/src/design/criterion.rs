@@ -6,6 +6,21 @@ use super::ContactWeight;
 
 /// What the optimiser minimises. All criteria are functions of `A = CᵀC`, with `C` the sensor
 /// matrix normalised by the nominal loads, and all are positive and smaller for a better sensor.
+///
+/// ```
+/// use fingertip_calibration::design::{Criterion, gram};
+/// use fingertip_calibration::nalgebra::{Matrix6, Vector6};
+///
+/// // Six gauges, one for each axis, of which the first gives four times the signal of the others.
+/// let mut rows: [Vector6<f64>; 6] = core::array::from_fn(|i| Matrix6::identity().column(i).into_owned());
+/// rows[0] *= 4.0;
+/// let first = gram(&rows, &Vector6::repeat(1.0));
+/// assert!((Criterion::ConditionNumber.of(&first) - 4.0).abs() < 1e-9);
+/// // A sensor that is nearly blind to an axis is worse.
+/// rows[1] *= 0.01;
+/// let worse = gram(&rows, &Vector6::repeat(1.0));
+/// assert!(Criterion::Trace.of(&worse) > Criterion::Trace.of(&first));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "there is one for a whole search")]
 pub enum Criterion {

@@ -7,6 +7,21 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 /// A matrix **M** of small whole numbers such that `M·C` can be solved one load after another:
 /// row `j` of `M·C` holds load `j` and loads that have been found before it (equations (19), (20) of
 /// Bicchi & Dario 1987, for any layout that has one).
+///
+/// ```
+/// use fingertip_calibration::design::Decoupling;
+/// use fingertip_calibration::nalgebra::{DMatrix, DVector};
+///
+/// // The first two gauges feel Fx + Fy and Fx − Fy, the others an axis each.
+/// let mut signals = DMatrix::identity(6, 6);
+/// (signals[(0, 1)], signals[(1, 0)], signals[(1, 1)]) = (1.0, 1.0, -1.0);
+/// let decoupling = Decoupling::find(&signals).ok_or("none")?;
+/// // Sums and differences suffice: no load must be known to find another.
+/// assert_eq!(decoupling.couplings(), 0);
+/// let load = decoupling.solve(&DVector::from_vec(vec![0.7, 0.3, 0.0, 0.0, 0.0, 0.1])).ok_or("wrong number")?;
+/// assert!((load[0] - 0.5).abs() < 1e-12 && (load[1] - 0.2).abs() < 1e-12 && (load[5] - 0.1).abs() < 1e-12);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decoupling {
     /// Row `j` is the combination of signals for axis `j`: `rows[j][channel]`.

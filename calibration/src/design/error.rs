@@ -5,6 +5,14 @@ use fingertip_wrench::gauge_layout::LayoutError;
 use thiserror::Error;
 
 /// Why a design cannot be made or judged.
+///
+/// ```
+/// use fingertip_calibration::design::{Bridge, DesignError, NominalLoads};
+///
+/// assert!(matches!(NominalLoads::equal(-10.0, 0.1), Err(DesignError::OutOfRange { value: -10.0, .. })));
+/// // The seventh gauge of six.
+/// assert!(matches!(Bridge::quarter(6).validate(6), Err(DesignError::NoSuchPart { index: 6, count: 6, .. })));
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DesignError {

@@ -6,6 +6,26 @@ use super::criterion::gram;
 use super::{Criterion, DesignError, DesignSpace, NominalLoads, space};
 
 /// Values of a criterion on a grid over two parameters, the others held.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Criterion, Landscape};
+///
+/// // The condition number over radius and angle, the distance of the rings held at its best, on a coarse grid.
+/// let held = [6.55e-3, 14.45_f64.to_radians(), 13.46e-3];
+/// let landscape = Landscape::new(&space, &Criterion::ConditionNumber, &loads, &held, [0, 1], [27, 30])?;
+/// let (least, column, row) = landscape.least().ok_or("no sensor")?;
+/// // Nothing on it is better than the best, and the least is near to it.
+/// assert!(least > 4.18 && least < 4.6);
+/// assert!((landscape.xs[column] - 6.55e-3).abs() < 1e-3 && landscape.ys[row] < 0.4);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landscape {
     /// Number of the parameter along x.

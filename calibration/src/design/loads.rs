@@ -6,6 +6,18 @@ use serde::{Deserialize, Serialize};
 use super::DesignError;
 
 /// Nominal loads: the greatest force and torque of each axis, which normalise the sensor matrix.
+///
+/// ```
+/// use fingertip_calibration::design::NominalLoads;
+///
+/// // 10 N and 0.1 N·m on all axes, but 30 N along the first.
+/// let mut loads = NominalLoads::equal(10.0, 0.1)?;
+/// loads.force[0] = 30.0;
+/// assert_eq!(loads.components().as_slice(), [30.0, 10.0, 10.0, 0.1, 0.1, 0.1]);
+/// loads.torque[2] = 0.0;
+/// assert!(loads.validate().is_err());
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NominalLoads {

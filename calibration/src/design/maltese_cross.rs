@@ -18,6 +18,26 @@ use super::{Bridge, DesignError, DesignSpace, Material, Parameter};
 ///
 /// The first axis is the axis of the cross, towards the fingertip; spokes lie along +Y, +Z, −Y, −Z. The
 /// loads act on the hub, about an origin `height_of_origin` beyond the mid-plane of the spokes.
+///
+/// ```
+/// use fingertip_calibration::design::{MalteseCross, Material};
+///
+/// // Spokes of 2 mm × 2 mm and 12 mm, gauges 1 mm from a hub of 8 mm.
+/// let cross = MalteseCross {
+///     hub_radius: 8e-3,
+///     length: 12e-3,
+///     width: 2e-3,
+///     height: 2e-3,
+///     membrane_compliance: 0.0,
+///     height_of_origin: 0.02,
+///     gauge_distance: 1e-3,
+/// };
+/// let strains = cross.strains(&Material::ALUMINIUM_7075_T6)?;
+/// // A push along the axis bends all spokes alike, and the two faces of a spoke oppositely.
+/// let (near, far, next) = (strains[0][0], strains[1][0], strains[4][0]);
+/// assert!(near != 0.0 && (near + far).abs() < 1e-9 * near.abs() && (near - next).abs() < 1e-9 * near.abs());
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MalteseCross {
     /// Distance from the axis to where the spokes begin \[m\].
@@ -161,6 +181,27 @@ impl MalteseCross {
 
 /// Maltese crosses for the optimiser: length, width, height and place of the gauges are free, wired in
 /// [`MalteseCross::half_bridges`].
+///
+/// ```
+/// use fingertip_calibration::design::{DesignSpace as _, MalteseCross, MalteseCrossSpace, Material};
+///
+/// let fixed = MalteseCross {
+///     hub_radius: 8e-3,
+///     length: 12e-3,
+///     width: 2e-3,
+///     height: 2e-3,
+///     membrane_compliance: 0.0,
+///     height_of_origin: 0.02,
+///     gauge_distance: 1e-3,
+/// };
+/// // Spokes of 8 mm to 20 mm with sections from 1 mm to 3 mm.
+/// let space = MalteseCrossSpace::new((8e-3, 20e-3), (1e-3, 3e-3), fixed, Material::ALUMINIUM_7075_T6)?;
+/// assert_eq!((space.parameters().len(), space.channels()), (4, 8));
+/// let middle: Vec<f64> = space.parameters().iter().map(|p| 0.5 * (p.lower + p.upper)).collect();
+/// let cross = space.cross(&middle)?;
+/// assert!((cross.length - 14e-3).abs() < 1e-12 && cross.hub_radius == 8e-3);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct MalteseCrossSpace {
     parameters: Vec<Parameter>,

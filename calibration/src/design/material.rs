@@ -8,6 +8,16 @@ use super::DesignError;
 ///
 /// The constants given here are typical handbook values at room temperature, good for a first
 /// design; those of the batch stand in its certificate.
+///
+/// ```
+/// use fingertip_calibration::design::Material;
+///
+/// let aluminium = Material::from_name("aluminium-7075-t6").ok_or("unknown")?;
+/// assert_eq!(aluminium, Material::ALUMINIUM_7075_T6);
+/// // E/(2(1 + ν)): 71.7 GPa over 2.66.
+/// assert!((aluminium.shear_modulus() - 26.95e9).abs() < 0.01e9);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {

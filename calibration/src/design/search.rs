@@ -16,6 +16,24 @@ use super::{Criterion, DesignError, DesignSpace, NominalLoads, space};
 use crate::linear::Singular;
 
 /// How to search.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Criterion, Search, search};
+///
+/// // Eight starts on one thread; the seed gives the same result again.
+/// let how = Search { starts: 8, seed: 3, threads: core::num::NonZero::new(1), ..Search::default() };
+/// let found = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ())?;
+/// assert!((found.best().ok_or("none")?.criterion - 4.183).abs() < 1e-3);
+/// assert_eq!(search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ())?.best(), found.best());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Search {
     /// Number of random starts.
@@ -36,6 +54,28 @@ impl Default for Search {
 }
 
 /// How far a search has come.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Criterion, Progress, Search, search};
+/// use std::sync::atomic::{AtomicUsize, Ordering};
+///
+/// // It is told after every start, from the threads that work.
+/// let told = AtomicUsize::new(0);
+/// let tell = |progress: Progress| {
+///     assert!(progress.done <= progress.starts && progress.best > 4.18);
+///     told.fetch_add(1, Ordering::Relaxed);
+/// };
+/// search(&space, &Criterion::ConditionNumber, &loads, &Search { starts: 4, ..Search::default() }, &tell)?;
+/// assert_eq!(told.into_inner(), 4);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Starts that are done.
@@ -47,6 +87,26 @@ pub struct Progress {
 }
 
 /// A local minimum.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Criterion, Minimum, Search, search};
+///
+/// let how = Search { starts: 8, ..Search::default() };
+/// let found = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ())?;
+/// let best: &Minimum = found.best().ok_or("none")?;
+/// // A radius of 6.55 mm, gauges at 14.45°, rings 13.46 mm apart.
+/// assert!((best.values[0] - 6.55e-3).abs() < 0.02e-3 && (best.values[1].to_degrees() - 14.45).abs() < 0.1);
+/// // The smallest singular value is that share of the largest.
+/// assert!((best.spectrum[5] * best.criterion - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Minimum {
     /// Values of the parameters, of the best of the starts that ended here.
@@ -68,6 +128,25 @@ pub struct Minimum {
 }
 
 /// Change of the criterion with one parameter. On a crease it grows to both sides.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Criterion, Search, Sensitivity, search};
+///
+/// let how = Search { starts: 8, ..Search::default() };
+/// let found = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ())?;
+/// // At a minimum it gets no better by half a degree to either side, and not much worse.
+/// let of_angle: Sensitivity = found.best().ok_or("none")?.sensitivities[1];
+/// assert!(of_angle.lower >= 0.0 && of_angle.higher >= 0.0);
+/// assert!(of_angle.lower < 0.5 && of_angle.higher < 0.5);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensitivity {
     /// By lowering the parameter by its tolerance (or to its bound).
@@ -77,6 +156,25 @@ pub struct Sensitivity {
 }
 
 /// What a search has found.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Criterion, Findings, Search, search};
+///
+/// let how = Search { starts: 8, ..Search::default() };
+/// let found: Findings = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ())?;
+/// // Every start ends in some minimum or fails, and the best comes first.
+/// let ended: usize = found.minima.iter().map(|minimum| minimum.starts).sum();
+/// assert_eq!(ended + found.failed, 8);
+/// assert!(found.minima.windows(2).all(|pair| pair[0].criterion <= pair[1].criterion));
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
     /// All local minima, best first.

@@ -5,6 +5,16 @@ use nalgebra::Vector6;
 use super::DesignError;
 
 /// What a parameter is measured in.
+///
+/// ```
+/// use fingertip_calibration::design::{Parameter, ParameterUnit};
+///
+/// let angle = Parameter::angle("Q", 0.0, 1.0);
+/// assert_eq!(angle.unit, ParameterUnit::Radian);
+/// // What is kept in radians and metres is printed in degrees and millimetres.
+/// assert_eq!(angle.display_unit(), "°");
+/// assert!((Parameter::length("R", 1e-3, 9e-3).display(5e-3) - 5.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterUnit {
     /// A length \[m\].
@@ -16,6 +26,18 @@ pub enum ParameterUnit {
 }
 
 /// One quantity that the optimiser may change.
+///
+/// ```
+/// use fingertip_calibration::design::Parameter;
+///
+/// // A radius of 2 mm to 15 mm: what is beyond is brought back.
+/// let radius = Parameter::length("R", 2e-3, 15e-3);
+/// assert_eq!(radius.admissible(0.02), 15e-3);
+/// assert!((radius.span() - 13e-3).abs() < 1e-15);
+/// // An angle around the tube begins anew.
+/// let around = Parameter::periodic_angle("theta", core::f64::consts::TAU);
+/// assert!((around.admissible(7.0) - (7.0 - core::f64::consts::TAU)).abs() < 1e-12);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name, for tables and plots.
@@ -110,6 +132,38 @@ impl Parameter {
 /// Implementors give the response as a function of the parameters, smooth within their bounds.
 /// Symmetries and other constraints belong into the function: parameters that are not free are no
 /// parameters.
+///
+/// ```
+/// use fingertip_calibration::design::{Criterion, DesignError, DesignSpace, NominalLoads, Parameter, Search, search};
+/// use fingertip_calibration::nalgebra::{Matrix6, Vector6};
+///
+/// /// Six gauges, one for each axis, of which the first has an arm that can be chosen \[m\].
+/// struct Arm([Parameter; 1]);
+///
+/// impl DesignSpace for Arm {
+///     fn parameters(&self) -> &[Parameter] {
+///         &self.0
+///     }
+///
+///     fn channels(&self) -> usize {
+///         6
+///     }
+///
+///     fn response(&self, values: &[f64], rows: &mut [Vector6<f64>]) -> Result<(), DesignError> {
+///         for (i, row) in rows.iter_mut().enumerate() {
+///             *row = Matrix6::identity().column(i) * if i == 0 { 100.0 * values[0] } else { 1.0 };
+///         }
+///         Ok(())
+///     }
+/// }
+///
+/// // It shall give as much as the others: 10 mm.
+/// let space = Arm([Parameter::length("arm", 2e-3, 30e-3)]);
+/// let (loads, how) = (NominalLoads::equal(1.0, 1.0)?, Search { starts: 4, ..Search::default() });
+/// let found = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ())?;
+/// assert!((found.best().ok_or("none")?.values[0] - 0.01).abs() < 1e-5);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub trait DesignSpace: Sync {
     /// The parameters and their bounds.
     fn parameters(&self) -> &[Parameter];

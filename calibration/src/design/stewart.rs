@@ -17,6 +17,24 @@ use super::{DesignError, DesignSpace, Material, NominalLoads, Parameter};
 /// The origin of the loads lies `height_of_origin` above the platform on the axis of symmetry, which
 /// is the first axis as in the tube, pointing from base to platform. The legs meet the plates in
 /// three pairs, 120° apart; a pair on the platform is turned by 60° from the pairs on the base.
+///
+/// ```
+/// use fingertip_calibration::design::Stewart;
+///
+/// // Plates of 20 mm and 15 mm radius, 20 mm apart.
+/// let platform = Stewart {
+///     base_radius: 0.02,
+///     platform_radius: 0.015,
+///     height: 0.02,
+///     base_half_angle: 10_f64.to_radians(),
+///     platform_half_angle: 10_f64.to_radians(),
+///     height_of_origin: 0.01,
+/// };
+/// // Under a pull along the axis all legs pull alike, together more than the load since they stand aslant.
+/// let along = platform.tensions()?.column(0).into_owned();
+/// assert!((along.max() - along.min()).abs() < 1e-9 && along.sum().abs() > 1.0);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stewart {
     /// Radius of the circle of the lower joints \[m\].
@@ -34,6 +52,28 @@ pub struct Stewart {
 }
 
 /// Strength of a platform under nominal loads, all at once and with the worst signs.
+///
+/// ```
+/// use fingertip_calibration::design::{Material, NominalLoads, Stewart, StewartStrength};
+///
+/// # let platform = Stewart {
+/// #     base_radius: 0.02,
+/// #     platform_radius: 0.015,
+/// #     height: 0.02,
+/// #     base_half_angle: 10_f64.to_radians(),
+/// #     platform_half_angle: 10_f64.to_radians(),
+/// #     height_of_origin: 0.01,
+/// # };
+/// // Legs of 1 mm and of 2 mm under 10 N and 0.1 N·m: four times the area bears four times as much.
+/// let loads = NominalLoads::equal(10.0, 0.1)?;
+/// let thin: StewartStrength = platform.strength(&Material::STEEL_17_4_PH, 1e-3, &loads)?;
+/// let thick = platform.strength(&Material::STEEL_17_4_PH, 2e-3, &loads)?;
+/// assert!((thin.leg_force - thick.leg_force).abs() < 1e-9);
+/// assert!((thin.yield_ratio / thick.yield_ratio - 4.0).abs() < 1e-9 && thick.yield_ratio < 1.0);
+/// // Against buckling it is sixteen times.
+/// assert!((thin.buckling_ratio / thick.buckling_ratio - 16.0).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StewartStrength {
     /// Greatest force in a leg \[N\].
@@ -157,6 +197,20 @@ impl Stewart {
 
 /// Stewart platforms of a given size for the optimiser: base radius, platform radius, height and
 /// both half angles are free.
+///
+/// ```
+/// use fingertip_calibration::design::{Criterion, DesignSpace as _, Material, NominalLoads};
+/// use fingertip_calibration::design::{Search, StewartSpace, search};
+///
+/// // Radii of 10 mm to 30 mm, heights of 10 mm to 40 mm, legs of 1 mm², the origin 10 mm above the platform.
+/// let space = StewartSpace::new((0.01, 0.03), (0.01, 0.04), 0.01, Material::ALUMINIUM_7075_T6, 1e-6)?;
+/// assert_eq!((space.parameters().len(), space.channels()), (5, 6));
+/// let (loads, how) = (NominalLoads::equal(10.0, 0.1)?, Search { starts: 4, ..Search::default() });
+/// let found = search(&space, &Criterion::ConditionNumber, &loads, &how, &|_| ())?;
+/// let best = found.best().ok_or("none")?;
+/// assert!(best.criterion < 6.0 && space.platform(&best.values)?.validate().is_ok());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct StewartSpace {
     parameters: Vec<Parameter>,

@@ -11,6 +11,19 @@ use super::{Bridge, DesignError, DesignSpace, Parameter};
 ///
 /// Rows are ε_x, ε_y, γ_xy in a tangent frame of the surface; columns Fx, Fy, Fz, Tx, Ty, Tz
 /// \[1/N, 1/(N·m)\]. It is what six unit load cases of a finite-element program give at a node.
+///
+/// ```
+/// use fingertip_calibration::design::StrainSite;
+/// use fingertip_calibration::nalgebra::Matrix3x6;
+///
+/// // Under 1 N along x a surface is stretched by 3 millionths along x and shortened by 1 across; ν is about ⅓.
+/// let mut site = StrainSite { strains: Matrix3x6::zeros() };
+/// (site.strains[(0, 0)], site.strains[(1, 0)]) = (3e-6, -1e-6);
+/// let along = site.gauge(0.0)[0];
+/// let across = site.gauge(core::f64::consts::FRAC_PI_2)[0];
+/// let aslant = site.gauge(core::f64::consts::FRAC_PI_4)[0];
+/// assert!((along - 3e-6).abs() < 1e-18 && (across + 1e-6).abs() < 1e-18 && (aslant - 1e-6).abs() < 1e-18);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainSite {
     /// The compliance.
@@ -30,6 +43,22 @@ impl StrainSite {
 
 /// Any linear structure with gauges at given sites: the parameters are the angles of the gauges that
 /// are free to turn. Which sites are worth a gauge is [`choose_sites`]'s business.
+///
+/// ```
+/// use fingertip_calibration::design::{Criterion, LinearStructure, NominalLoads, Search, search};
+/// use fingertip_calibration::nalgebra::{Matrix6, Vector6};
+///
+/// // What a finite-element program says of six gauges: strain per newton and newton metre.
+/// let compliance: [Vector6<f64>; 6] = core::array::from_fn(|i| {
+///     Matrix6::identity().column(i) * if i < 3 { 1e-6 } else { 2e-4 }
+/// });
+/// let structure = LinearStructure::fixed(&compliance)?;
+/// // Under 10 N or 0.1 N·m the gauges of forces are strained by 10 millionths, those of torques by 20.
+/// let loads = NominalLoads::equal(10.0, 0.1)?;
+/// let found = search(&structure, &Criterion::ConditionNumber, &loads, &Search::default(), &|_| ())?;
+/// assert!((found.best().ok_or("none")?.criterion - 2.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct LinearStructure {
     sites: Vec<StrainSite>,
@@ -40,6 +69,23 @@ pub struct LinearStructure {
 }
 
 /// How a gauge lies at its site.
+///
+/// ```
+/// use fingertip_calibration::design::{DesignSpace as _, GaugeAngle, LinearStructure, StrainSite};
+/// use fingertip_calibration::nalgebra::{Matrix3x6, Vector6};
+///
+/// // Six sites; five gauges lie along x, and the last may be turned.
+/// let sites = vec![StrainSite { strains: Matrix3x6::from_fn(|i, _| [3e-6, -1e-6, 0.0][i]) }; 6];
+/// let mut angles = vec![GaugeAngle::Fixed(0.0); 6];
+/// angles[5] = GaugeAngle::Free;
+/// let structure = LinearStructure::new(sites, angles, Vec::new())?;
+/// assert_eq!(structure.parameters().len(), 1);
+/// // Turned by a right angle it feels what is across.
+/// let mut rows = [Vector6::zeros(); 6];
+/// structure.response(&[core::f64::consts::FRAC_PI_2], &mut rows)?;
+/// assert!((rows[0][0] - 3e-6).abs() < 1e-18 && (rows[5][0] + 1e-6).abs() < 1e-18);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GaugeAngle {
     /// So, from the site's x axis \[rad\].

@@ -9,6 +9,25 @@ use rand_pcg::Pcg64Mcg;
 use super::{Assessment, ContactWeight, DesignError, NominalLoads, Touch, TubeLayout, TubeTheory};
 
 /// How well gauges can be placed: the standard deviations of normally distributed errors.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Placement, tolerance};
+///
+/// // Gauges that are glued to half a degree and 0.05 mm, and ten times as carelessly.
+/// let careful = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
+/// let careless = Placement { angle: 10.0 * careful.angle, position: 10.0 * careful.position };
+/// let condition = |placement| tolerance(&layout, &loads, placement, None, 100, 1);
+/// let (one, other) = (condition(careful)?.condition_number, condition(careless)?.condition_number);
+/// assert!(one.quantile_99 < other.quantile_99 && one.nominal == other.nominal);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Of the angle Q of a gauge \[rad\].
@@ -43,6 +62,24 @@ impl Placement {
 }
 
 /// The mean of a figure over sensors as made, and what 99 % of them do not exceed.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Placement, Spread, tolerance};
+///
+/// let placement = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
+/// let spread: Spread = tolerance(&layout, &loads, placement, None, 200, 1)?.condition_number;
+/// // 4.18 as drawn, and a little more as made.
+/// assert!((spread.nominal - 4.183).abs() < 1e-2);
+/// assert!(spread.quantile_99 > spread.mean && spread.quantile_99 < 5.0);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// As designed.
@@ -64,6 +101,26 @@ impl Spread {
 }
 
 /// How a layout bears placement errors.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{Placement, ToleranceReport, Touch, Touches, tolerance};
+///
+/// // Gauges glued to half a degree and 0.05 mm; touches of 5 N on a half sphere of 13 mm, with friction up to 0.5.
+/// let placement = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
+/// let touches = Touches::new(&Touch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?)?;
+/// let report: ToleranceReport = tolerance(&layout, &loads, placement, Some(&touches), 100, 1)?;
+/// // As drawn the matrix of the design is exact; as made, contacts are off by some tenths of a millimetre.
+/// let uncalibrated = report.uncalibrated_error.ok_or("no touches")?;
+/// assert!(uncalibrated.nominal < 1e-9 && uncalibrated.mean > 0.05e-3 && uncalibrated.mean < 2e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToleranceReport {
     /// Condition number of the sensor as made.
@@ -132,6 +189,17 @@ pub fn tolerance(
 }
 
 /// Touches, and what they add up to.
+///
+/// ```
+/// use fingertip_calibration::design::{ContactWeight, Touch, Touches};
+///
+/// // Touches of 1 N all over a half sphere of 10 mm weigh as that half sphere does.
+/// let angle = core::f64::consts::FRAC_PI_2;
+/// let touches = Touches::new(&Touch::on_sphere(0.01, angle, 0.5, 1.0)?)?;
+/// let weight = ContactWeight::on_sphere(0.01, angle, 0.5, 1.0)?;
+/// assert!((touches.weight().matrix() - weight.matrix()).norm() < 1e-12 * weight.matrix().norm());
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Touches {
     /// Wrench of each touch, and how its point moves with the wrench.

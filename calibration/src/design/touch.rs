@@ -9,6 +9,19 @@ use nalgebra::{Matrix3, Matrix3x6, Vector3};
 use super::DesignError;
 
 /// A touch: where, with which outward normal, by which force on the fingertip \[m, –, N\].
+///
+/// ```
+/// use fingertip_calibration::design::Touch;
+/// use fingertip_calibration::nalgebra::Vector3;
+///
+/// // 2 N straight down at the top of a tip of 10 mm.
+/// let touch = Touch { point: Vector3::z() * 0.01, normal: Vector3::z(), force: Vector3::z() * -2.0 };
+/// // A torque about y moves the contact along x, by 1/2 N.
+/// let jacobian = touch.jacobian();
+/// assert!((jacobian[(0, 4)] - 0.5).abs() < 1e-12 && jacobian.row(2).norm() < 1e-12);
+/// // A force of 1 N along x, on an arm of 10 mm, shifts it by −5 mm.
+/// assert!((jacobian[(0, 0)] + 5e-3).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Contact point in the sensor frame \[m\].
@@ -139,6 +152,27 @@ fn forces(normal: Vector3<f64>, friction: f64, size: f64) -> impl Iterator<Item 
 }
 
 /// Touches of a surface, on which a report says what the calibration is worth.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Six loads one after another, up to ±9.5 N and ±95 N·mm; gauges of 0.1 V/N or 10 V/(N·m) that scatter.
+/// # let size = [1.0, 1.0, 1.0, 0.01, 0.01, 0.01];
+/// # let loads = DMatrix::from_fn(120, 6, |i, j| if i % 6 == j { ((i / 6) as f64 - 9.5) * size[j] } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, load| 0.1 * load / size[j] + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::design::{Touch, TouchSet};
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // What is this calibration worth on a tip of 13 mm, touched with 5 N?
+/// let set = TouchSet {
+///     surface: "sphere of 13 mm".into(),
+///     touches: Touch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?,
+/// };
+/// let count = set.touches.len();
+/// let report = calibrate(&table, &Options { touches: Some(set), ..Options::default() })?.report;
+/// assert_eq!(report.contacts.ok_or("none")?.touches, count);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TouchSet {
     /// What the surface is, in words: "a sphere of 10 mm about the origin".

@@ -12,6 +12,31 @@ use super::{DesignError, NominalLoads, Placement, Touch, TubeLayout, TubeTheory}
 use crate::linear::{Triangular, pseudo_inverse};
 
 /// Which matrix turns the sensor's signals into wrenches.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// # use fingertip_calibration::design::{Placement, Touch, Trial};
+/// # let sphere = fingertip_surfaces::Sphere::centred(0.013).expect("a radius");
+/// # let touches = Touch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
+/// # let trial = |matrix: MatrixUsed| {
+/// #     let placement = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
+/// #     let trial = Trial { loads, placement, noise: 1e-9, resolution: 0.0, matrix, sensors: 10, seed: 1 };
+/// #     trial.run(&layout, &sphere, &touches)
+/// # };
+/// use fingertip_calibration::design::MatrixUsed;
+///
+/// // A sensor as it comes from the bench, and one that was calibrated with 50 loads known to 0.1 %.
+/// let as_designed = trial(MatrixUsed::AsDesigned)?;
+/// let calibrated = trial(MatrixUsed::Calibrated { loads: 50, load_error: 1e-3 })?;
+/// assert!(calibrated.position_rms < 0.5 * as_designed.position_rms);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MatrixUsed {
     /// The one of the design: no calibration.
@@ -27,6 +52,34 @@ pub enum MatrixUsed {
 
 /// How a design is tried: sensors are made with placement errors, calibrated or not, touched, and
 /// what the pipeline says is compared with the truth.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::{MatrixUsed, Placement, Touch, Trial};
+/// use fingertip_surfaces::Sphere;
+///
+/// // Ten sensors, glued to half a degree and 0.05 mm, calibrated; noise of a hundredth of a millionth of strain.
+/// let trial = Trial {
+///     loads,
+///     placement: Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 },
+///     noise: 1e-8,
+///     resolution: 0.0,
+///     matrix: MatrixUsed::Calibrated { loads: 50, load_error: 1e-3 },
+///     sensors: 10,
+///     seed: 1,
+/// };
+/// // A tip of 13 mm, touched with 5 N at friction ratios up to 0.3.
+/// let touches = Touch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
+/// let accuracy = trial.run(&layout, &Sphere::centred(0.013)?, &touches)?;
+/// assert!(accuracy.position_rms < 1e-3 && accuracy.missed < 0.01);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
     /// The nominal loads.
@@ -46,6 +99,31 @@ pub struct Trial {
 }
 
 /// What a trial found, over all sensors and touches.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// # use fingertip_calibration::design::{Placement, Touch, Trial};
+/// # let sphere = fingertip_surfaces::Sphere::centred(0.013).expect("a radius");
+/// # let touches = Touch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
+/// # let trial = |matrix: MatrixUsed| {
+/// #     let placement = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
+/// #     let trial = Trial { loads, placement, noise: 1e-9, resolution: 0.0, matrix, sensors: 10, seed: 1 };
+/// #     trial.run(&layout, &sphere, &touches)
+/// # };
+/// use fingertip_calibration::design::{Accuracy, MatrixUsed};
+///
+/// // Ten sensors, never calibrated: contacts are off by some tenths of a millimetre, forces by some per cent.
+/// let accuracy: Accuracy = trial(MatrixUsed::AsDesigned)?;
+/// assert!(accuracy.position_95 > accuracy.position_rms && accuracy.position_rms < 2e-3);
+/// assert!(accuracy.force_rms < 0.1);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Root mean square of the distance between found and true contact \[m\].

@@ -9,6 +9,23 @@ use nalgebra::{DMatrix, Vector6};
 use super::{Bridge, DesignError, NominalLoads};
 
 /// Which constants relate load to strain.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::TubeTheory;
+///
+/// // The constants of 1987 differ from the corrected ones.
+/// let corrected = layout.strains(TubeTheory::Corrected)?;
+/// let of_1987 = layout.strains(TubeTheory::Reconstructed1987)?;
+/// assert!(corrected.iter().zip(&of_1987).any(|(a, b)| (a - b).norm() > 0.01 * a.norm()));
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TubeTheory {
     /// Equation (17) of Bicchi & Dario 1987, which is right: peak transverse shear `2V/A`, and
@@ -41,6 +58,24 @@ pub(super) fn strain(gauge: Gauge<f64>, section: SectionConstants<f64>, poisson_
 }
 
 /// A tube with gauges on it, and how they are wired.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::TubeLayout;
+///
+/// let layout: TubeLayout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// assert_eq!((layout.channels(), layout.beam.radius), (6, 6.55e-3));
+/// // At 1250 V for each unit of strain, as the solvers take it.
+/// let sensor = layout.sensor_matrix::<6>(1250.0, &loads)?;
+/// assert!(sensor.normalised().amax() > 0.01 && sensor.normalised().amax() < 10.0);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TubeLayout {
     /// The tube.

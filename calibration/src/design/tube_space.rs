@@ -10,6 +10,29 @@ use super::{Bridge, DesignError, DesignSpace, LoadedTube, Parameter, TubeLayout,
 
 /// A coordinate that is fixed, or follows one parameter: `constant + factor·parameter`. Several
 /// coordinates that follow one parameter are how a symmetry is said.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, Parameter, TubeSpace, Wall};
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let space = |gauges: Vec<GaugeRule>| {
+/// #     let q = Parameter::angle("Q", 0.0, 1.0);
+/// #     TubeSpace::new(vec![q], Coordinate::fixed(5e-3), gauges, tube, Wall::Fixed(0.2e-3))
+/// # };
+/// use fingertip_calibration::design::{Coordinate, GaugeRule};
+///
+/// // Six gauges 60° apart, turned by +Q and −Q in turn: one parameter moves all.
+/// let gauges = (0..6).map(|k| GaugeRule {
+///     z: Coordinate::fixed(0.0),
+///     theta: Coordinate::fixed(f64::from(k) * 60_f64.to_radians()),
+///     q: Coordinate::following(0, if k % 2 == 0 { 1.0 } else { -1.0 }),
+/// });
+/// let layout = space(gauges.collect())?.layout(&[0.3])?;
+/// assert!((layout.gauges[0].q - 0.3).abs() < 1e-12 && (layout.gauges[1].q + 0.3).abs() < 1e-12);
+/// // Shifted, it is what is added.
+/// assert_eq!(Coordinate::following(0, 2.0).plus(0.1).constant, 0.1);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinate {
     /// The fixed part.
@@ -46,6 +69,28 @@ impl Coordinate {
 }
 
 /// Where one gauge may be.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, Parameter, TubeSpace, Wall};
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let space = |gauges: Vec<GaugeRule>| {
+/// #     let q = Parameter::angle("Q", 0.0, 1.0);
+/// #     TubeSpace::new(vec![q], Coordinate::fixed(5e-3), gauges, tube, Wall::Fixed(0.2e-3))
+/// # };
+/// use fingertip_calibration::design::{Coordinate, GaugeRule};
+///
+/// // Three rosettes of two: 120° apart, the second gauge of each is the mirror image of the first.
+/// let gauges = (0..6).map(|k| GaugeRule {
+///     z: Coordinate::fixed(5e-3),
+///     theta: Coordinate::fixed(f64::from(k / 2) * 120_f64.to_radians()),
+///     q: Coordinate::following(0, if k % 2 == 0 { 1.0 } else { -1.0 }),
+/// });
+/// let layout = space(gauges.collect())?.layout(&[0.25])?;
+/// assert!((layout.gauges[2].theta - 120_f64.to_radians()).abs() < 1e-12);
+/// assert!((layout.gauges[2].q + layout.gauges[3].q).abs() < 1e-12 && layout.gauges[2].z == 5e-3);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaugeRule {
     /// Distance behind the origin.
@@ -57,6 +102,24 @@ pub struct GaugeRule {
 }
 
 /// How thick the wall is.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// // A wall of 0.2 mm whatever the radius, or as thin as twice the loads allow.
+/// let design = [6.55e-3, 14.45_f64.to_radians(), 13.46e-3];
+/// assert_eq!(layout.beam.thickness, 0.2e-3);
+/// let strong = Wall::AtStrength { safety: 2.0 };
+/// let strong = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, strong)?.layout(&design)?;
+/// let tube = LoadedTube { radius: 6.55e-3, ..tube };
+/// assert!((strong.beam.thickness - tube.least_thickness(2.0)?).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wall {
     /// So thick \[m\].
@@ -70,6 +133,20 @@ pub enum Wall {
 }
 
 /// A family of tubes with gauges.
+///
+/// ```
+/// use fingertip_calibration::design::{DesignSpace as _, LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+///
+/// let loads = NominalLoads::equal(10.0, 0.1)?;
+/// let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// // Three pairs of gauges around the tube: radius, angle and place of the ring are free.
+/// let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// let space = TubeSpace::rosettes(3, (2e-3, 15e-3), angles, (0.0, 20e-3), tube, Wall::Fixed(0.2e-3))?;
+/// assert_eq!((space.parameters().len(), space.channels()), (3, 6));
+/// let layout = space.layout(&[8e-3, 0.35, 10e-3])?;
+/// assert!(layout.gauges.len() == 6 && layout.beam.radius == 8e-3);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct TubeSpace {
     parameters: Vec<Parameter>,

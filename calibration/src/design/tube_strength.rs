@@ -12,6 +12,24 @@ pub const THICKEST_WALL: f64 = 0.1;
 /// How near a tube under load is to failing, and how.
 ///
 /// All loads are taken at their nominal value at once, with the signs that are worst together.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::TubeStrength;
+///
+/// // An aluminium tube of 5 mm with a wall of 0.2 mm, 20 mm long, under 10 N and 0.1 N·m.
+/// let strength: TubeStrength = tube.strength(0.2e-3)?;
+/// assert!((strength.yield_ratio - strength.stress / 503e6).abs() < 1e-9);
+/// // It holds; the loads may grow until the first ratio is 1.
+/// assert!(strength.holds(1.0) && (strength.safety() * strength.worst_ratio() - 1.0).abs() < 1e-12);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TubeStrength {
     /// Greatest equivalent stress of von Mises \[Pa\].
@@ -27,6 +45,22 @@ pub struct TubeStrength {
 }
 
 /// How a tube fails.
+///
+/// ```
+/// # use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, TubeSpace, Wall};
+/// # // The paper's six gauges for 10 N and 0.1 N·m, in the best places.
+/// # let loads = NominalLoads::equal(10.0, 0.1)?;
+/// # let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
+/// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
+/// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
+/// use fingertip_calibration::design::TubeFailure;
+///
+/// // A short wall of 0.2 mm yields before it buckles; foil of 5 µm crumples.
+/// assert_eq!(tube.strength(0.2e-3)?.failure(), TubeFailure::Yield);
+/// assert_eq!(tube.strength(5e-6)?.failure(), TubeFailure::WallBuckling);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TubeFailure {
     /// The equivalent stress of von Mises reaches the yield strength.
@@ -72,6 +106,18 @@ impl TubeStrength {
 }
 
 /// The part of the tube that is loaded, clamped at its far end.
+///
+/// ```
+/// use fingertip_calibration::design::{LoadedTube, Material, NominalLoads};
+///
+/// // 5 mm of radius and 20 mm of length, for 10 N and 0.1 N·m on each axis at once.
+/// let loads = NominalLoads::equal(10.0, 0.1)?;
+/// let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 5e-3, length: 20e-3, loads };
+/// // The thinnest wall that bears three times as much.
+/// let metres = tube.least_thickness(3.0)?;
+/// assert!((tube.strength(metres)?.safety() - 3.0).abs() < 1e-3 && metres < 0.5e-3);
+/// # Ok::<(), fingertip_calibration::design::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadedTube {
     /// What it is made of.

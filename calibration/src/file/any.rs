@@ -9,6 +9,16 @@ use super::bounded::read_text;
 use super::{AtiCalibration, AtiError, CalibrationFile, FileError};
 
 /// Why a calibration of either format cannot be read.
+///
+/// ```
+/// use fingertip_calibration::file::{ReadError, read_calibration};
+///
+/// assert!(matches!(read_calibration("nowhere.toml"), Err(ReadError::Io(_))));
+/// // A bare matrix says nothing of its units.
+/// let file = tempfile::Builder::new().suffix(".npy").tempfile()?;
+/// assert!(matches!(read_calibration(file.path()), Err(ReadError::Plain)));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {

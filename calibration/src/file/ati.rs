@@ -58,6 +58,24 @@ pub struct AtiCalibration {
 }
 
 /// One row of an ATI matrix.
+///
+/// ```
+/// # use fingertip_calibration::{file::SignalUnit, nalgebra::DMatrix};
+/// # // 2 V on one gauge each under 10 N or 0.1 N·m.
+/// # let file = fingertip_calibration::file::CalibrationFile::new(
+/// #     DMatrix::from_diagonal_element(6, 6, 2.0),
+/// #     vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+/// #     vec![0.0; 6],
+/// #     SignalUnit::Volt,
+/// # )?;
+/// use fingertip_calibration::file::{AtiAxis, AtiCalibration};
+///
+/// // 2 V under 10 N on the first axis: 5 N/V.
+/// let axes: [AtiAxis; 6] = AtiCalibration::from_calibration(&file)?.user_axes.ok_or("the older layout")?;
+/// assert!(axes[0].max == 10.0 && axes[0].scale == 1.0);
+/// assert!((axes[0].values[0] - 5.0).abs() < 1e-12 && axes[0].values[1] == 0.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtiAxis {
     /// Load per volt of each gauge, times [`scale`](Self::scale).

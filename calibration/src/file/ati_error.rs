@@ -5,6 +5,15 @@ use thiserror::Error;
 use super::FileError;
 
 /// Why a `.cal` file cannot be used.
+///
+/// ```
+/// use fingertip_calibration::file::{AtiCalibration, AtiError};
+///
+/// assert!(matches!(AtiCalibration::from_xml("0.1, 0.2, 0.3"), Err(AtiError::NotXml(_))));
+/// // What is missing is named.
+/// let error = AtiCalibration::from_xml(r#"<FTSensor Serial="FT1"/>"#).unwrap_err();
+/// assert!(matches!(error, AtiError::MissingElement { .. }), "{error}");
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum AtiError {

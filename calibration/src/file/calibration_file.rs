@@ -88,6 +88,31 @@ pub struct CalibrationFile {
 }
 
 /// Where a calibration comes from.
+///
+/// ```
+/// # use fingertip_calibration::{file::SignalUnit, nalgebra::DMatrix};
+/// # // 2 V on one gauge each under 10 N or 0.1 N·m.
+/// # let file = fingertip_calibration::file::CalibrationFile::new(
+/// #     DMatrix::from_diagonal_element(6, 6, 2.0),
+/// #     vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+/// #     vec![0.0; 6],
+/// #     SignalUnit::Volt,
+/// # )?;
+/// # let mut file = file;
+/// use fingertip_calibration::file::{CalibrationFile, Provenance};
+///
+/// file.provenance = Provenance {
+///     serial: "FT-0042".into(),
+///     date: "2026-11-26".into(),
+///     source: "weights of class M1".into(),
+///     ..Provenance::default()
+/// };
+/// // It is in the file, for whoever finds it.
+/// let text = file.to_toml()?;
+/// assert!(text.contains("FT-0042"));
+/// assert_eq!(CalibrationFile::from_toml(&text)?.provenance, file.provenance);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
@@ -109,6 +134,23 @@ pub struct Provenance {
 }
 
 /// Whether a calibration can be trusted.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::file::{CalibrationFile, Verdict};
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // A calibration that was fitted has been checked; a matrix that somebody typed has not.
+/// let fitted = calibrate(&table, &Options::default())?.to_file()?;
+/// assert_eq!(fitted.quality.verdict, Verdict::Good);
+/// let typed = CalibrationFile::new(fitted.matrix, fitted.nominal, fitted.zero, fitted.signal_unit)?;
+/// assert_eq!(typed.quality.verdict.name(), "unchecked");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
@@ -138,6 +180,23 @@ impl Verdict {
 }
 
 /// Summary of a calibration's report.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::file::Quality;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // Sixty loads up to 9.5 N, read to 7 mN: 0.07 % of full scale, a little more on loads that were left out.
+/// let quality: Quality = calibrate(&table, &Options::default())?.to_file()?.quality;
+/// let (rms, left_out) = (quality.rms_percent.ok_or("none")?, quality.left_out_percent.ok_or("none")?);
+/// assert_eq!(quality.samples, Some(60));
+/// assert!((rms[0] - 0.07).abs() < 0.01 && left_out[0] > rms[0]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quality {

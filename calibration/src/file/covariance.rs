@@ -12,6 +12,24 @@ use super::rows;
 /// multi-response regression). Where errors differ from sample to sample, where a drift was fitted too, and where a
 /// matrix was mended by touches, it is none: then [`entries`](Self::entries) holds all of it, and a file that has it
 /// is of version 2.
+///
+/// ```
+/// use fingertip_calibration::file::Covariance;
+/// use fingertip_calibration::nalgebra::{DMatrix, DVector};
+///
+/// // Two gauges of 1 mV; four nominal loads on each of three axes.
+/// let covariance = Covariance::product(
+///     DMatrix::from_diagonal_element(2, 2, 1e-6),
+///     DMatrix::from_diagonal_element(3, 3, 0.25),
+/// );
+/// // An entry is known to half a millivolt, and of two entries of one gauge one says nothing of the other.
+/// assert!((covariance.between((0, 1), (0, 1)).ok_or("beyond")?.sqrt() - 0.5e-3).abs() < 1e-12);
+/// assert_eq!(covariance.between((0, 1), (0, 2)), Some(0.0));
+/// // Under twice the nominal load of an axis that is wrong by a millivolt.
+/// let of_signals = covariance.of_signals(&DVector::from_vec(vec![2.0, 0.0, 0.0]));
+/// assert!((of_signals[(0, 0)].sqrt() - 1e-3).abs() < 1e-12);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Covariance {

@@ -12,6 +12,28 @@ use crate::curve::Terms;
 pub type AnyCurve<T, const N: usize> = CurvedInverse<T, N, Vec<ProductTerm<T>>, Vec<RadialTerm<T, N>>>;
 
 /// Terms of higher order in the signals: see [`Terms`] and [`CalibrationFile::load`].
+///
+/// ```
+/// # use fingertip_calibration::{file::SignalUnit, nalgebra::DMatrix};
+/// # // 2 V on one gauge each under 10 N or 0.1 N·m.
+/// # let file = fingertip_calibration::file::CalibrationFile::new(
+/// #     DMatrix::from_diagonal_element(6, 6, 2.0),
+/// #     vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+/// #     vec![0.0; 6],
+/// #     SignalUnit::Volt,
+/// # )?;
+/// # let mut file = file;
+/// use fingertip_calibration::file::Curve;
+///
+/// // The product of the first two signals \[V²\] adds a tenth of the nominal 10 N to Fz.
+/// let mut loads = DMatrix::zeros(6, 1);
+/// loads[(2, 0)] = 0.1;
+/// file.curve = Some(Curve { products: vec![vec![0, 1]], widths: vec![], centres: vec![], loads });
+/// // 0.5 V and 0.4 V: 0.2 N on Fz, beside 2.5 N on Fx and 2 N on Fy.
+/// let load = file.load(&[0.5, 0.4, 0.0, 0.0, 0.0, 0.0])?;
+/// assert!((load[2] - 0.2).abs() < 1e-12 && (load[0] - 2.5).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Curve {

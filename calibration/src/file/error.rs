@@ -6,6 +6,27 @@ use fingertip_wrench::SensorMatrixError;
 use thiserror::Error;
 
 /// Why a calibration cannot be read, written or used. Every variant names the field.
+///
+/// ```
+/// # use fingertip_calibration::{file::SignalUnit, nalgebra::DMatrix};
+/// # // 2 V on one gauge each under 10 N or 0.1 N·m.
+/// # let file = fingertip_calibration::file::CalibrationFile::new(
+/// #     DMatrix::from_diagonal_element(6, 6, 2.0),
+/// #     vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+/// #     vec![0.0; 6],
+/// #     SignalUnit::Volt,
+/// # )?;
+/// use fingertip_calibration::file::{CalibrationFile, FileError};
+///
+/// // Somebody makes 3 V of 2 V in the file, and the checksum tells.
+/// let text = file.to_toml()?.replace("2.0", "3.0");
+/// assert!(matches!(CalibrationFile::from_toml(&text), Err(FileError::WrongChecksum { .. })));
+/// // A zero for five gauges of six is refused, by the name of the field.
+/// let error = CalibrationFile::new(file.matrix, file.nominal, vec![0.0; 5], file.signal_unit).unwrap_err();
+/// assert!(matches!(&error, FileError::WrongShape { found: 5, expected: 6, .. }));
+/// assert!(error.to_string().contains("zero"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FileError {

@@ -61,6 +61,17 @@ pub struct PayloadFile {
 }
 
 /// How well a payload is known.
+///
+/// ```
+/// use fingertip_calibration::file::{PayloadFile, PayloadQuality, Verdict};
+/// use fingertip_calibration::nalgebra::Vector3;
+///
+/// // A gripper of 0.4 kg whose data sheet we believe: nothing was fitted.
+/// let gripper = PayloadFile::new(0.4, Vector3::new(0.0, 0.0, 0.05), Vector3::new(0.0, 0.0, -9.81))?;
+/// let quality: &PayloadQuality = &gripper.quality;
+/// assert_eq!((quality.poses, quality.verdict), (0, Verdict::Unchecked));
+/// # Ok::<(), fingertip_calibration::file::FileError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PayloadQuality {
@@ -83,6 +94,22 @@ pub struct PayloadQuality {
 }
 
 /// An inertial unit on the sensor, as it was when a payload was fitted by its readings.
+///
+/// ```
+/// use fingertip_calibration::file::InertialUnitFile;
+///
+/// // 20 mm above the sensor's origin, its axes turned by 90° about z.
+/// let unit = InertialUnitFile {
+///     position: [0.0, 0.0, 0.02],
+///     sensor_from_unit: [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+///     resting_rate: [0.0; 3],
+///     time_constant: 0.01,
+///     delay: 0.002,
+/// };
+/// assert!(unit.unit::<f32>().is_ok());
+/// // Axes that are no rotation are refused.
+/// assert!(InertialUnitFile { sensor_from_unit: [[1.0; 3]; 3], ..unit }.unit::<f32>().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct InertialUnitFile {

@@ -8,6 +8,30 @@ use super::{CalibrationFile, FileError, Provenance, Quality, SignalUnit, UNTARED
 use crate::linear::pseudo_inverse;
 
 /// Which way a plain matrix goes.
+///
+/// ```
+/// # use fingertip_calibration::file::{PlainUnits, SignalUnit};
+/// # use fingertip_calibration::units::{ForceUnit, TorqueUnit};
+/// # let units = PlainUnits {
+/// #     matrix: PlainMatrix::LoadPerSignal,
+/// #     signal: SignalUnit::Volt,
+/// #     force: ForceUnit::Newton,
+/// #     torque: TorqueUnit::NewtonMetre,
+/// #     nominal: [10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+/// #     reaction: false,
+/// # };
+/// use fingertip_calibration::file::PlainMatrix;
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// // 5 N/V is 0.2 V/N; both ways round 1 V on the first gauge is 5 N.
+/// let inverse = DMatrix::from_diagonal_element(6, 6, 5.0);
+/// let forward = DMatrix::from_diagonal_element(6, 6, 0.2);
+/// for (way, numbers) in [(PlainMatrix::LoadPerSignal, inverse), (PlainMatrix::SignalPerLoad, forward)] {
+///     let file = PlainUnits { matrix: way, ..units }.calibration(&numbers)?;
+///     assert!((file.load(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0])?[0] - 5.0).abs() < 1e-12);
+/// }
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlainMatrix {
     /// Load = matrix · signals: six rows Fx, Fy, Fz, Tx, Ty, Tz, a column for each gauge.
@@ -17,6 +41,28 @@ pub enum PlainMatrix {
 }
 
 /// What a plain matrix does not say of itself. Nothing of it is guessed.
+///
+/// ```
+/// use fingertip_calibration::file::{PlainMatrix, PlainUnits, SignalUnit, plain_csv};
+/// use fingertip_calibration::units::{ForceUnit, TorqueUnit};
+///
+/// // Six lines of a data sheet: N and N·mm for each volt.
+/// let numbers = plain_csv(
+///     "5, 0, 0, 0, 0, 0\n0, 5, 0, 0, 0, 0\n0, 0, 5, 0, 0, 0\n\
+///      0, 0, 0, 50, 0, 0\n0, 0, 0, 0, 50, 0\n0, 0, 0, 0, 0, 50\n",
+/// )?;
+/// let units = PlainUnits {
+///     matrix: PlainMatrix::LoadPerSignal,
+///     signal: SignalUnit::Volt,
+///     force: ForceUnit::Newton,
+///     torque: TorqueUnit::NewtonMillimetre,
+///     nominal: [10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+///     reaction: false,
+/// };
+/// let load = units.calibration(&numbers)?.load(&[0.0, 0.0, 0.0, 0.0, 0.0, 2.0])?;
+/// assert!((load[5] - 0.1).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlainUnits {
     /// Which way it goes.
@@ -34,6 +80,14 @@ pub struct PlainUnits {
 }
 
 /// Why a plain matrix cannot be used.
+///
+/// ```
+/// use fingertip_calibration::file::{PlainError, plain_csv};
+///
+/// let error = plain_csv("5, 0, 0\n0, five, 0\n").unwrap_err();
+/// assert!(matches!(error, PlainError::NotANumber { line: 2, .. }));
+/// assert!(matches!(plain_csv("5, 0, 0\n0, 5\n"), Err(PlainError::Ragged { line: 2, found: 2, expected: 3 })));
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PlainError {

@@ -164,6 +164,23 @@ fn drift_in_rust(drift: &Temperature, name: &str, list: &ListInRust<'_>) -> Resu
 }
 
 /// Scalar type of exported constants.
+///
+/// ```
+/// # use fingertip_calibration::{file::SignalUnit, nalgebra::DMatrix};
+/// # // 2 V on one gauge each under 10 N or 0.1 N·m.
+/// # let file = fingertip_calibration::file::CalibrationFile::new(
+/// #     DMatrix::from_diagonal_element(6, 6, 2.0),
+/// #     vec![10.0, 10.0, 10.0, 0.1, 0.1, 0.1],
+/// #     vec![0.0; 6],
+/// #     SignalUnit::Volt,
+/// # )?;
+/// use fingertip_calibration::file::Scalar;
+///
+/// // For a microcontroller whose floats are of 32 bits.
+/// let module = file.to_rust(Scalar::F32)?;
+/// assert!(module.contains("pub const NORMALISED: [[f32; 6]; GAUGES]"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scalar {
     /// `f32`.

@@ -11,6 +11,24 @@ use super::{CalibrationFile, FileError};
 ///
 /// A calibration with these terms gives no load without a temperature: what cannot use them refuses
 /// it ([`FileError::NeedsTemperature`]).
+///
+/// ```
+/// use fingertip_calibration::file::Temperature;
+///
+/// // One gauge: 1 mV/K and 2 ‰/K, fitted from 15 °C to 45 °C.
+/// let drift = Temperature {
+///     reference_celsius: 20.0,
+///     range_celsius: [15.0, 45.0],
+///     zero_drift: vec![1e-3],
+///     zero_curvature: vec![0.0],
+///     gain_drift: vec![2e-3],
+/// };
+/// // At 30 °C a zero of 0.1 V is 0.11 V, and a signal of 2 V is 2.04 V.
+/// assert!((drift.drift_of_zero(30.0)[0] - 0.01).abs() < 1e-12);
+/// let cold = drift.at_reference(&[0.11 + 2.04], &[0.1], 30.0).ok_or("wrong length")?;
+/// assert!((cold[0] - 2.1).abs() < 1e-12);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Temperature {

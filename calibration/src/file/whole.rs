@@ -14,6 +14,24 @@ const LINKS: usize = 40;
 const BUFFER: usize = 1 << 16;
 
 /// What becomes of a file that is there already.
+///
+/// ```
+/// use fingertip_calibration::file::{Existing, WholeFile};
+/// use std::io::{ErrorKind, Write as _};
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("report.html");
+/// for (existing, text) in [(Existing::Keep, "first"), (Existing::Replace, "second")] {
+///     let mut file = WholeFile::create(&path, existing)?;
+///     file.write_all(text.as_bytes())?;
+///     file.finish()?;
+/// }
+/// assert_eq!(std::fs::read_to_string(&path)?, "second");
+/// // What is there is not written over unless that is said.
+/// let refused = WholeFile::create(&path, Existing::Keep).and_then(WholeFile::finish);
+/// assert!(refused.is_err_and(|error| error.kind() == ErrorKind::AlreadyExists));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
     /// It is replaced when the new one is whole; the new one has its rights.

@@ -8,6 +8,23 @@ use super::regression::check;
 use super::{Fit, FitError, least_squares};
 
 /// What RANSAC needs to know.
+///
+/// ```
+/// use fingertip_calibration::fit::{Ransac, ransac};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// // A gauge of 0.5 V and 0.1 V/N; every seventh reading is wrong by 2 V.
+/// let design = DMatrix::from_fn(70, 2, |i, j| if j == 0 { 1.0 } else { (i % 10) as f64 });
+/// let mut volts = &design * DMatrix::from_column_slice(2, 1, &[0.5, 0.1]);
+/// volts.iter_mut().step_by(7).for_each(|volts| *volts += 2.0);
+/// // Readings agree within 10 mV; a fifth may be wrong. Seven draws of two find two right ones in 999 of 1000 cases.
+/// let options = Ransac::new(vec![0.01]);
+/// assert_eq!(options.draws(2), 7);
+/// let fit = ransac(&design, &volts, None, &options)?;
+/// assert!((fit.coefficients[0] - 0.5).abs() < 1e-9 && (fit.coefficients[1] - 0.1).abs() < 1e-9);
+/// assert_eq!(fit.trust[0], 0.0);
+/// # Ok::<(), fingertip_calibration::fit::FitError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ransac {
     /// Greatest residual of a good sample, per response (three to four standard deviations).

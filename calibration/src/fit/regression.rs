@@ -7,6 +7,20 @@ use thiserror::Error;
 use crate::linear::{Triangular, Unobserved};
 
 /// The answer of a fit `y ≈ xᵀ Θ`.
+///
+/// ```
+/// use fingertip_calibration::fit::{Fit, least_squares};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// // 1 V at 0 N and 3.1, 4.9, 7 V at 1, 2, 3 N: about 2 V/N.
+/// let design = DMatrix::from_row_slice(4, 2, &[1.0, 0.0, 1.0, 1.0, 1.0, 2.0, 1.0, 3.0]);
+/// let fit: Fit = least_squares(&design, &DMatrix::from_column_slice(4, 1, &[1.0, 3.1, 4.9, 7.0]), None)?;
+/// assert!((fit.coefficients[1] - 1.98).abs() < 1e-12 && fit.freedom == 2.0);
+/// // With two degrees of freedom the interval of 95 % is 4.3 deviations wide to either side.
+/// let factor = fit.half_widths(0.95)[1] / fit.deviations()[1];
+/// assert!((factor - 4.303).abs() < 1e-3);
+/// # Ok::<(), fingertip_calibration::fit::FitError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// Θ, regressors × responses.
@@ -71,6 +85,20 @@ pub fn student_factor(probability: f64, freedom: f64) -> f64 {
 }
 
 /// Why a fit has no answer.
+///
+/// ```
+/// use fingertip_calibration::fit::{FitError, least_squares};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// // A straight line through two points leaves nothing that would tell its error.
+/// let design = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 1.0, 3.0]);
+/// let error = least_squares(&design, &DMatrix::from_element(2, 1, 0.2), None).unwrap_err();
+/// assert!(matches!(error, FitError::TooFewSamples { samples: 2, .. }), "{error}");
+/// // Through twice the same point there are many.
+/// let design = DMatrix::from_row_slice(3, 2, &[1.0, 3.0, 1.0, 3.0, 1.0, 3.0]);
+/// let error = least_squares(&design, &DMatrix::from_element(3, 1, 0.2), None).unwrap_err();
+/// assert!(matches!(error, FitError::Unobserved(_)), "{error}");
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FitError {

@@ -8,6 +8,25 @@ use crate::file::Temperature;
 
 /// A sensor whose readings drift: `v = zero + z₁ΔT + z₂ΔT² + (1 + αΔT) · C · load`, each gauge with
 /// coefficients of its own (`docs/theory/calibration.md#temperature`).
+///
+/// ```
+/// use fingertip_calibration::fit::{TemperatureFit, fit_temperature};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// // From 20 °C to 41 °C, without load and with the nominal one: 2 V, a zero of 0.1 V that drifts by 1 mV/K, and 2 ‰/K
+/// // of gain.
+/// let celsius: Vec<f64> = (0..8).map(|i| 20.0 + 3.0 * f64::from(i)).collect();
+/// let loads = DMatrix::from_fn(8, 1, |i, _| (i % 2) as f64);
+/// let volts = DMatrix::from_fn(8, 1, |i, _| {
+///     let warmer = celsius[i] - 20.0;
+///     0.1 + 1e-3 * warmer + (1.0 + 2e-3 * warmer) * 2.0 * loads[i]
+/// });
+/// let fit: TemperatureFit = fit_temperature(&loads, &volts, None, &celsius, 20.0)?;
+/// assert!((fit.matrix[0] - 2.0).abs() < 1e-9 && (fit.zero[0] - 0.1).abs() < 1e-9);
+/// assert!((fit.temperature.zero_drift[0] - 1e-3).abs() < 1e-9);
+/// assert!((fit.temperature.gain_drift[0] - 2e-3).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::fit::FitError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TemperatureFit {
     /// The matrix at the reference temperature, gauges × regressors.

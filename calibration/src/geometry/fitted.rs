@@ -7,6 +7,38 @@ use super::torques::Step;
 use crate::fit::student_factor;
 
 /// A fitted shape, and how sure it is.
+///
+/// ```
+/// # use fingertip_calibration::geometry::Touch;
+/// # use fingertip_calibration::nalgebra::Vector3;
+/// # use fingertip_wrench::Wrench;
+/// # // 2 N inward and 0.5 N aside, at forty places of an ellipsoid.
+/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<Touch> {
+/// #     let touch = |k: i32| {
+/// #         let (around, up) = (2.4 * f64::from(k), f64::from(k - 15) / 25.0);
+/// #         let normal = Vector3::new(around.cos(), around.sin(), up).normalize();
+/// #         let squared = semi_axes.component_mul(&semi_axes).component_mul(&normal);
+/// #         let point = centre + squared / squared.dot(&normal).sqrt();
+/// #         let aside = normal.cross(&Vector3::new(0.3, f64::from(k).sin(), 0.8)).normalize() * 0.5;
+/// #         Touch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
+/// #     };
+/// #     (0..40).map(touch).collect()
+/// # };
+/// use fingertip_calibration::geometry::{Fitted, WrenchNoise, fit_sphere};
+/// use fingertip_surfaces::Sphere;
+///
+/// // A sphere of 12 mm; the torques scatter by about 0.05 N·mm under 2 N.
+/// let mut touches = touched(Vector3::repeat(0.012), Vector3::new(0.0, 0.0, 0.03));
+/// for (k, touch) in touches.iter_mut().enumerate() {
+///     let error = Vector3::new((5.0 * k as f64).sin(), (7.0 * k as f64).cos(), (11.0 * k as f64).sin()) * 7e-5;
+///     touch.wrench = Wrench::on_fingertip(touch.wrench.force(), touch.wrench.torque() + error);
+/// }
+/// let fitted: Fitted<Sphere<f64>> = fit_sphere(&touches, &WrenchNoise::exact_forces())?;
+/// // The radius comes first; what is left is said as torque.
+/// assert!((fitted.shape.radius() - 0.012).abs() < fitted.half_widths(0.999)[0]);
+/// assert!(fitted.rms > 3e-5 && fitted.rms < 1e-4 && fitted.unobserved.is_empty());
+/// # Ok::<(), fingertip_calibration::geometry::GeometryError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted<S> {
     /// The shape.

@@ -9,6 +9,35 @@ use super::GeometryError;
 /// It counts in its shape: how large the errors are together is taken from what a fit leaves
 /// ([`Fitted::noise_scale`](super::Fitted::noise_scale)). Forces that are taken as exact make radii too small
 /// where they are not: the error of a force is error of what it is compared with.
+///
+/// ```
+/// # use fingertip_calibration::geometry::Touch;
+/// # use fingertip_calibration::nalgebra::Vector3;
+/// # use fingertip_wrench::Wrench;
+/// # // 2 N inward and 0.5 N aside, at forty places of an ellipsoid.
+/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<Touch> {
+/// #     let touch = |k: i32| {
+/// #         let (around, up) = (2.4 * f64::from(k), f64::from(k - 15) / 25.0);
+/// #         let normal = Vector3::new(around.cos(), around.sin(), up).normalize();
+/// #         let squared = semi_axes.component_mul(&semi_axes).component_mul(&normal);
+/// #         let point = centre + squared / squared.dot(&normal).sqrt();
+/// #         let aside = normal.cross(&Vector3::new(0.3, f64::from(k).sin(), 0.8)).normalize() * 0.5;
+/// #         Touch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
+/// #     };
+/// #     (0..40).map(touch).collect()
+/// # };
+/// use fingertip_calibration::geometry::{WrenchNoise, fit_sphere};
+/// use fingertip_calibration::nalgebra::{Matrix6, Vector6};
+///
+/// // 10 mN on each force and 0.1 N·mm on each torque, and the same as a covariance.
+/// let noise = WrenchNoise::new(0.01, 1e-4)?;
+/// let covariance = Matrix6::from_diagonal(&Vector6::new(1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8));
+/// let touches = touched(Vector3::repeat(0.012), Vector3::zeros());
+/// let one = fit_sphere(&touches, &noise)?.shape.radius();
+/// let other = fit_sphere(&touches, &WrenchNoise::with_covariance(&covariance)?)?.shape.radius();
+/// assert!((one - 0.012).abs() < 1e-6 && (one - other).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::geometry::GeometryError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrenchNoise {
     pub(super) forces: Matrix3<f64>,

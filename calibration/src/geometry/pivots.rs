@@ -46,6 +46,23 @@ fn meeting_point(
 }
 
 /// A plane `normal · x = offset`.
+///
+/// ```
+/// use fingertip_calibration::geometry::{Fitted, PlaneParameters, WrenchNoise, fit_plane};
+/// use fingertip_calibration::nalgebra::Vector3;
+/// use fingertip_wrench::Wrench;
+///
+/// // A pad 10 mm above the sensor, held at four places while 2 N turned about them.
+/// let places = [(0.005, 0.0), (0.0, 0.005), (-0.005, 0.0), (0.0, -0.005)];
+/// let pivots = places.map(|(x, y)| {
+///     let place = Vector3::new(x, y, 0.01);
+///     let turned = |k: i32| Vector3::new(f64::from(k).sin(), f64::from(k).cos(), -1.7);
+///     (0..8).map(|k| Wrench::from_force_at(&place, turned(k))).collect()
+/// });
+/// let plane: Fitted<PlaneParameters> = fit_plane(&pivots, &Vector3::z(), &WrenchNoise::exact_forces())?;
+/// assert!((plane.shape.normal - Vector3::z()).norm() < 1e-9 && (plane.shape.offset - 0.01).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::geometry::GeometryError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneParameters {
     /// Unit normal.

@@ -10,6 +10,22 @@ use super::{Fitted, GeometryError, WrenchNoise};
 
 /// A touch: what the sensor said, and the outward normal of the fingertip where it was touched, in
 /// the sensor frame (known from how the fingertip was pressed on a plane, say).
+///
+/// ```
+/// use fingertip_calibration::geometry::{Touch, WrenchNoise, fit_sphere};
+/// use fingertip_calibration::nalgebra::Vector3;
+/// use fingertip_wrench::Wrench;
+///
+/// // A tip of 12 mm is pressed with 2 N and rubbed with 0.5 N where it looks up, to the right, and so on.
+/// let normals = [Vector3::x(), Vector3::y(), Vector3::z(), -Vector3::x(), -Vector3::y()];
+/// let touches = normals.map(|normal| {
+///     let aside = normal.yzx() * 0.5;
+///     Touch { wrench: Wrench::from_force_at(&(normal * 0.012), aside - normal * 2.0), normal }
+/// });
+/// let sphere = fit_sphere(&touches, &WrenchNoise::exact_forces())?.shape;
+/// assert!((sphere.radius() - 0.012).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::geometry::GeometryError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Load on the fingertip.

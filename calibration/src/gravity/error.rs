@@ -5,6 +5,29 @@ use thiserror::Error;
 use crate::fit::FitError;
 
 /// Why poses do not tell the payload.
+///
+/// ```
+/// # use fingertip_calibration::gravity::Pose;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # // 0.4 kg, 50 mm above the sensor, in eight poses; the sensor reads 0.2 N along x without load.
+/// # let mut poses = Vec::new();
+/// # let turns = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 0, 1], [1, 0, 2, 1]];
+/// # for xyzw in [[0, 0, 0, 1]].into_iter().chain(turns) {
+/// #     let mut pose = Pose::from_quaternion(xyzw.map(f64::from), Vector6::zeros()).ok_or("no quaternion")?;
+/// #     let weight = pose.base_from_sensor.transpose() * Vector3::new(0.0, 0.0, -0.4 * 9.81);
+/// #     pose.wrench = fingertip_wrench::Wrench::<f64>::from_force_at(&(Vector3::z() * 0.05), weight).components();
+/// #     pose.wrench.x += 0.2;
+/// #     poses.push(pose);
+/// # }
+/// # let mut poses = poses;
+/// use fingertip_calibration::gravity::{PayloadError, PayloadOptions, fit_payload};
+///
+/// // The readings are what the sensor does to the world: the weight points up.
+/// poses.iter_mut().for_each(|pose| pose.wrench *= -1.0);
+/// let error = fit_payload(&poses, &PayloadOptions::default()).unwrap_err();
+/// assert!(matches!(error, PayloadError::NegativeMass { mass } if (mass + 0.4).abs() < 1e-3));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PayloadError {

@@ -6,6 +6,31 @@ use super::poses::Pose;
 use super::{PayloadOptions, fit_payload};
 
 /// How readings and orientations can be meant.
+///
+/// ```
+/// # use fingertip_calibration::gravity::Pose;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # // 0.4 kg, 50 mm above the sensor, in eight poses; the sensor reads 0.2 N along x without load.
+/// # let mut poses = Vec::new();
+/// # let turns = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 0, 1], [1, 0, 2, 1]];
+/// # for xyzw in [[0, 0, 0, 1]].into_iter().chain(turns) {
+/// #     let mut pose = Pose::from_quaternion(xyzw.map(f64::from), Vector6::zeros()).ok_or("no quaternion")?;
+/// #     let weight = pose.base_from_sensor.transpose() * Vector3::new(0.0, 0.0, -0.4 * 9.81);
+/// #     pose.wrench = fingertip_wrench::Wrench::<f64>::from_force_at(&(Vector3::z() * 0.05), weight).components();
+/// #     pose.wrench.x += 0.2;
+/// #     poses.push(pose);
+/// # }
+/// use fingertip_calibration::gravity::{Frames, PayloadOptions, try_frames};
+///
+/// // Somebody gives the quaternions the other way round; the weight fits only if they are taken so.
+/// let turned: Vec<Pose> = poses
+///     .iter()
+///     .map(|pose| Pose { base_from_sensor: pose.base_from_sensor.transpose(), ..*pose })
+///     .collect();
+/// let best = try_frames(&turned, &PayloadOptions::default())[0].frames;
+/// assert_eq!(best, Frames { wrench_in_base: false, inverse: true });
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Frames {
     /// The readings are in the axes of the base, not of the sensor.
@@ -15,6 +40,28 @@ pub struct Frames {
 }
 
 /// What a fit leaves if the frames are so.
+///
+/// ```
+/// # use fingertip_calibration::gravity::Pose;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # // 0.4 kg, 50 mm above the sensor, in eight poses; the sensor reads 0.2 N along x without load.
+/// # let mut poses = Vec::new();
+/// # let turns = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 0, 1], [1, 0, 2, 1]];
+/// # for xyzw in [[0, 0, 0, 1]].into_iter().chain(turns) {
+/// #     let mut pose = Pose::from_quaternion(xyzw.map(f64::from), Vector6::zeros()).ok_or("no quaternion")?;
+/// #     let weight = pose.base_from_sensor.transpose() * Vector3::new(0.0, 0.0, -0.4 * 9.81);
+/// #     pose.wrench = fingertip_wrench::Wrench::<f64>::from_force_at(&(Vector3::z() * 0.05), weight).components();
+/// #     pose.wrench.x += 0.2;
+/// #     poses.push(pose);
+/// # }
+/// use fingertip_calibration::gravity::{FrameTrial, PayloadOptions, try_frames};
+///
+/// // Of the ways to take the frames the best leaves nothing of the weight, 4 N; the next leaves much.
+/// let trials: Vec<FrameTrial> = try_frames(&poses, &PayloadOptions::default());
+/// assert!(trials[0].rms < 1e-6 && !trials[0].frames.inverse);
+/// assert!(trials.get(1).is_none_or(|next| next.rms > 0.5));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameTrial {
     /// How they are taken.

@@ -9,6 +9,33 @@ use crate::fit::{Fit, FitError, least_squares};
 use crate::linear::Singular;
 
 /// A sensor's orientation on its flange, and the weight it carries.
+///
+/// ```
+/// # use fingertip_calibration::gravity::Pose;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # // 0.4 kg, 50 mm above the sensor, in eight poses; the sensor reads 0.2 N along x without load.
+/// # let mut poses = Vec::new();
+/// # let turns = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 0, 1], [1, 0, 2, 1]];
+/// # for xyzw in [[0, 0, 0, 1]].into_iter().chain(turns) {
+/// #     let mut pose = Pose::from_quaternion(xyzw.map(f64::from), Vector6::zeros()).ok_or("no quaternion")?;
+/// #     let weight = pose.base_from_sensor.transpose() * Vector3::new(0.0, 0.0, -0.4 * 9.81);
+/// #     pose.wrench = fingertip_wrench::Wrench::<f64>::from_force_at(&(Vector3::z() * 0.05), weight).components();
+/// #     pose.wrench.x += 0.2;
+/// #     poses.push(pose);
+/// # }
+/// use fingertip_calibration::gravity::{Orientation, fit_orientation};
+/// use fingertip_calibration::nalgebra::Rotation3;
+///
+/// // The poses are those of the flange, on which the sensor sits turned by 30° about z.
+/// let mounted = Rotation3::from_axis_angle(&Vector3::z_axis(), 30.0_f64.to_radians());
+/// let of_flange: Vec<Pose> = poses
+///     .iter()
+///     .map(|pose| Pose { base_from_sensor: pose.base_from_sensor * mounted.matrix(), ..*pose })
+///     .collect();
+/// let found: Orientation = fit_orientation(&of_flange, &-Vector3::z())?;
+/// assert!((found.sensor_from_flange - mounted.matrix()).norm() < 1e-6 && (found.weight - 0.4 * 9.81).abs() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orientation {
     /// Columns are the axes of the flange in the sensor frame.

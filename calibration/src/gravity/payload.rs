@@ -11,6 +11,28 @@ use crate::fit::{Fit, least_squares};
 use crate::linear::Singular;
 
 /// What is known of gravity and of the body.
+///
+/// ```
+/// # use fingertip_calibration::gravity::Pose;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # // 0.4 kg, 50 mm above the sensor, in eight poses; the sensor reads 0.2 N along x without load.
+/// # let mut poses = Vec::new();
+/// # let turns = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 0, 1], [1, 0, 2, 1]];
+/// # for xyzw in [[0, 0, 0, 1]].into_iter().chain(turns) {
+/// #     let mut pose = Pose::from_quaternion(xyzw.map(f64::from), Vector6::zeros()).ok_or("no quaternion")?;
+/// #     let weight = pose.base_from_sensor.transpose() * Vector3::new(0.0, 0.0, -0.4 * 9.81);
+/// #     pose.wrench = fingertip_wrench::Wrench::<f64>::from_force_at(&(Vector3::z() * 0.05), weight).components();
+/// #     pose.wrench.x += 0.2;
+/// #     poses.push(pose);
+/// # }
+/// use fingertip_calibration::gravity::{PayloadOptions, fit_payload};
+///
+/// // The base may stand crooked, and the centre of mass lies on the z axis of the sensor.
+/// let options = PayloadOptions { down: None, centre_on: Some(Vector3::z()), ..PayloadOptions::default() };
+/// let fit = fit_payload(&poses, &options)?;
+/// assert!((fit.weight.norm() - 0.4 * 9.81).abs() < 1e-6 && (fit.centre_of_mass.z - 0.05).abs() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PayloadOptions {
     /// Where gravity points, in the base frame; `None` if the base may stand crooked, which costs two
@@ -30,6 +52,36 @@ impl Default for PayloadOptions {
 
 /// Degrees of freedom behind the deviations of a payload: an interval is a deviation times
 /// [`student_factor`](crate::fit::student_factor) of its own.
+///
+/// ```
+/// # use fingertip_calibration::gravity::Pose;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # // 0.4 kg, 50 mm above the sensor, in eight poses; the sensor reads 0.2 N along x without load.
+/// # let mut poses = Vec::new();
+/// # let turns = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 0, 1], [1, 0, 2, 1]];
+/// # for xyzw in [[0, 0, 0, 1]].into_iter().chain(turns) {
+/// #     let mut pose = Pose::from_quaternion(xyzw.map(f64::from), Vector6::zeros()).ok_or("no quaternion")?;
+/// #     let weight = pose.base_from_sensor.transpose() * Vector3::new(0.0, 0.0, -0.4 * 9.81);
+/// #     pose.wrench = fingertip_wrench::Wrench::<f64>::from_force_at(&(Vector3::z() * 0.05), weight).components();
+/// #     pose.wrench.x += 0.2;
+/// #     poses.push(pose);
+/// # }
+/// # let mut poses = poses;
+/// use fingertip_calibration::fit::student_factor;
+/// use fingertip_calibration::gravity::{PayloadFreedom, PayloadOptions, fit_payload};
+///
+/// // Readings that scatter by some millinewtons.
+/// for (k, pose) in (0_i32..).zip(&mut poses) {
+///     pose.wrench.z += 5e-3 * f64::from(7 * k * k + 1).sin();
+/// }
+/// let fit = fit_payload(&poses, &PayloadOptions::default())?;
+/// let freedom: PayloadFreedom = fit.freedom;
+/// // Eight poses tell less surely than very many, for which 1.96 deviations hold the truth in 95 of 100 cases.
+/// let factor = student_factor(0.95, freedom.weight);
+/// assert!(factor > 1.96 && factor < 5.0);
+/// assert!((fit.weight.norm() - 0.4 * 9.81).abs() < factor * fit.weight_deviation);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PayloadFreedom {
     /// Of the weight.
@@ -43,6 +95,30 @@ pub struct PayloadFreedom {
 }
 
 /// What the weight of a body told.
+///
+/// ```
+/// # use fingertip_calibration::gravity::Pose;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # // 0.4 kg, 50 mm above the sensor, in eight poses; the sensor reads 0.2 N along x without load.
+/// # let mut poses = Vec::new();
+/// # let turns = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 0, 1], [1, 0, 2, 1]];
+/// # for xyzw in [[0, 0, 0, 1]].into_iter().chain(turns) {
+/// #     let mut pose = Pose::from_quaternion(xyzw.map(f64::from), Vector6::zeros()).ok_or("no quaternion")?;
+/// #     let weight = pose.base_from_sensor.transpose() * Vector3::new(0.0, 0.0, -0.4 * 9.81);
+/// #     pose.wrench = fingertip_wrench::Wrench::<f64>::from_force_at(&(Vector3::z() * 0.05), weight).components();
+/// #     pose.wrench.x += 0.2;
+/// #     poses.push(pose);
+/// # }
+/// use fingertip_calibration::gravity::{PayloadFit, PayloadOptions, fit_payload};
+///
+/// // 0.4 kg, 50 mm above the sensor, which reads 0.2 N along x without load.
+/// let fit: PayloadFit = fit_payload(&poses, &PayloadOptions::default())?;
+/// assert!((fit.mass - 0.4).abs() < 1e-3 && (fit.centre_of_mass - Vector3::z() * 0.05).norm() < 1e-6);
+/// assert!((fit.force_bias - Vector3::x() * 0.2).norm() < 1e-6);
+/// // It says what the sensor would read in any pose.
+/// assert!((fit.reading(&poses[3].base_from_sensor) - poses[3].wrench).norm() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PayloadFit {
     /// Weight in the base frame \[N\], as the load on the sensor.

@@ -7,6 +7,20 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 use crate::loads::{Columns, LoadError};
 
 /// One pose and what the sensor said in it.
+///
+/// ```
+/// use fingertip_calibration::gravity::{Pose, poses_from_csv};
+/// use fingertip_calibration::nalgebra::{Vector3, Vector6};
+///
+/// // The sensor stands on its head: turned by 180° about x. The 4 N of its gripper are along its +z.
+/// let pose = Pose::from_quaternion([1.0, 0.0, 0.0, 0.0], Vector6::new(0.0, 0.0, 4.0, 0.0, 0.0, 0.0));
+/// let pose = pose.ok_or("no quaternion")?;
+/// assert!((pose.base_from_sensor * Vector3::z() + Vector3::z()).norm() < 1e-12);
+/// // The same from a file.
+/// let text = "qx,qy,qz,qw,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n1,0,0,0,0,0,4,0,0,0\n";
+/// assert_eq!(poses_from_csv(text.as_bytes())?, [pose]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Columns are the axes of the sensor (or of the flange it is on) in the base frame.

@@ -10,6 +10,29 @@ use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 ///
 /// One contact of a soft pad proves nothing; that all of the last hundred have pitch does. The window
 /// forgets exponentially, so a drift is noticed however long the monitor ran before.
+///
+/// ```
+/// use fingertip_calibration::in_situ::DriftMonitor;
+/// use fingertip_calibration::nalgebra::{Matrix6, Vector3, Vector6};
+/// use fingertip_wrench::Wrench;
+///
+/// // 10 mN and 0.1 N·mm of noise; the last hundred touches count.
+/// let noise = Matrix6::from_diagonal(&Vector6::new(1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8));
+/// let mut monitor = DriftMonitor::new(noise, 100.0).ok_or("no covariance")?;
+/// let touch = |k: i32| {
+///     let normal = Vector3::new(f64::from(k).sin(), f64::from(k).cos(), 1.0).normalize();
+///     Wrench::from_force_at(&(normal * 0.012), normal * -2.0)
+/// };
+/// (0..200).for_each(|k| assert!(monitor.push(&touch(k))));
+/// assert!(!monitor.verdict().ok_or("no touch")?.drifted);
+/// // From now on a torque about the force is read that no point contact has: 0.5 N·mm.
+/// (0..200).for_each(|k| {
+///     let push = touch(k);
+///     monitor.push(&Wrench::on_fingertip(push.force(), push.torque() + push.force() * 2.5e-4));
+/// });
+/// assert!(monitor.verdict().ok_or("no touch")?.drifted);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriftMonitor {
     covariance: Matrix6<f64>,
@@ -21,6 +44,24 @@ pub struct DriftMonitor {
 }
 
 /// What a drift monitor says.
+///
+/// ```
+/// use fingertip_calibration::in_situ::{DriftMonitor, DriftVerdict};
+/// use fingertip_calibration::nalgebra::{Matrix6, Vector3, Vector6};
+/// use fingertip_wrench::Wrench;
+///
+/// // Forces without noise to speak of, torques with 0.1 N·mm; each touch has 0.3 N·mm along its force.
+/// let noise = Matrix6::from_diagonal(&Vector6::new(1e-16, 1e-16, 1e-16, 1e-8, 1e-8, 1e-8));
+/// let mut monitor = DriftMonitor::new(noise, 100.0).ok_or("no covariance")?;
+/// for _ in 0..50 {
+///     monitor.push(&Wrench::on_fingertip(-Vector3::z(), Vector3::z() * 3e-4));
+/// }
+/// // Three deviations are 9 times the variance.
+/// let verdict: DriftVerdict = monitor.verdict().ok_or("no touch")?;
+/// assert!((verdict.mean - 9.0).abs() < 1e-3 && verdict.touches == 50);
+/// assert!(verdict.drifted && verdict.chance < 1e-6);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriftVerdict {
     /// Mean of T over the window: 1 for a true calibration.

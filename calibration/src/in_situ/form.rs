@@ -13,6 +13,29 @@ use crate::linear::{Singular, Triangular};
 /// measured thus determine S up to a factor: 20 of the 36 numbers in B
 /// (`docs/theory/calibration.md#point-contacts-in-use`). The other 16 (the group O(3,3) and a scale) need
 /// known loads: see [`super::refine`].
+///
+/// ```
+/// # use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3, Vector6};
+/// # // What a touch at a place of a ball of 12 mm reads: N, and N·m times 100.
+/// # let touch = |k: i32| -> Vector6<f64> {
+/// #     let at = f64::from(k);
+/// #     let normal = Vector3::new((2.4 * at).cos(), (2.4 * at).sin(), (1.3 * at).sin()).normalize();
+/// #     let force = Vector3::new((3.1 * at).sin(), (1.7 * at).cos(), (0.9 * at).sin()) - normal * 2.0;
+/// #     let torque = (normal * 0.012 + Vector3::new(0.0, 0.0, 0.005)).cross(&force) * 100.0;
+/// #     Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+/// # };
+/// use fingertip_calibration::in_situ::{PointContactForm, angle_between, form_of};
+///
+/// // What 200 touches at unknown places say of a sensor that reads 1 per newton and 100 per newton metre.
+/// let mut gathered = PointContactForm::new(6);
+/// for k in 0..200 {
+///     assert!(gathered.push(touch(k).as_slice()));
+/// }
+/// let found = gathered.solve()?;
+/// let loads_per_signal = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 1.0, 1.0, 0.01, 0.01, 0.01]));
+/// assert!(angle_between(&found.matrix, &form_of(&loads_per_signal)) < 1e-6);
+/// # Ok::<(), fingertip_calibration::fit::FitError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct PointContactForm {
     gauges: usize,
@@ -20,6 +43,27 @@ pub struct PointContactForm {
 }
 
 /// The form of a sensor, up to a factor.
+///
+/// ```
+/// # use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3, Vector6};
+/// # // What a touch at a place of a ball of 12 mm reads: N, and N·m times 100.
+/// # let touch = |k: i32| -> Vector6<f64> {
+/// #     let at = f64::from(k);
+/// #     let normal = Vector3::new((2.4 * at).cos(), (2.4 * at).sin(), (1.3 * at).sin()).normalize();
+/// #     let force = Vector3::new((3.1 * at).sin(), (1.7 * at).cos(), (0.9 * at).sin()) - normal * 2.0;
+/// #     let torque = (normal * 0.012 + Vector3::new(0.0, 0.0, 0.005)).cross(&force) * 100.0;
+/// #     Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+/// # };
+/// use fingertip_calibration::in_situ::{Form, PointContactForm};
+///
+/// let mut gathered = PointContactForm::new(6);
+/// (0..200).for_each(|k| assert!(gathered.push(touch(k).as_slice())));
+/// // Point contacts and nothing else, of a true sensor of six gauges.
+/// let form: Form = gathered.solve()?;
+/// assert!(form.contacts == 200 && form.signature == (3, 3) && form.ambiguity < 1e-6);
+/// assert!((form.matrix.norm() - 1.0).abs() < 1e-9);
+/// # Ok::<(), fingertip_calibration::fit::FitError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
     /// Symmetric, gauges × gauges, of Frobenius norm 1; its sign is chosen so that its trace, or else its

@@ -7,6 +7,31 @@ use crate::fit::FitError;
 use crate::linear::{Singular, Triangular, pseudo_inverse};
 
 /// What mending a calibration gave.
+///
+/// ```
+/// # use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3, Vector6};
+/// # // What a touch at a place of a ball of 12 mm reads: N, and N·m times 100.
+/// # let touch = |k: i32| -> Vector6<f64> {
+/// #     let at = f64::from(k);
+/// #     let normal = Vector3::new((2.4 * at).cos(), (2.4 * at).sin(), (1.3 * at).sin()).normalize();
+/// #     let force = Vector3::new((3.1 * at).sin(), (1.7 * at).cos(), (0.9 * at).sin()) - normal * 2.0;
+/// #     let torque = (normal * 0.012 + Vector3::new(0.0, 0.0, 0.005)).cross(&force) * 100.0;
+/// #     Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+/// # };
+/// use fingertip_calibration::in_situ::{Refined, refine};
+///
+/// // The signals are loads in nominal loads. The calibration that there is has 2 % too much of one entry.
+/// let mut start = DMatrix::identity(6, 6);
+/// start[(0, 0)] = 1.02;
+/// // A hundred touches, and one known load on each axis.
+/// let touches = DMatrix::from_fn(100, 6, |k, i| touch(k as i32)[i]);
+/// let known = DMatrix::identity(6, 6);
+/// let refined: Refined = refine(&start, &touches, 1e-3, &known, &known, 1e-2)?;
+/// assert!((refined.loads_per_signal[(0, 0)] - 1.0).abs() < 0.005);
+/// // The pitch of the touches is less than before.
+/// assert!(refined.pitch.1 < 0.1 * refined.pitch.0);
+/// # Ok::<(), fingertip_calibration::fit::FitError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refined {
     /// From signals to loads in nominal loads, 6 × gauges.

@@ -5,6 +5,22 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use super::regressor::{ENTRIES, Parameters};
 
 /// Mass, centre and inertia.
+///
+/// ```
+/// use fingertip_calibration::inertial::Body;
+/// use fingertip_calibration::nalgebra::{Matrix3, Vector3};
+///
+/// // A flat disc of 0.2 kg and 50 mm: m r²/4 across and m r²/2 about its axis.
+/// let moment = 0.2 * 0.05_f64.powi(2);
+/// let inertia = Matrix3::from_diagonal(&Vector3::new(moment / 4.0, moment / 4.0, moment / 2.0));
+/// let disc = Body { mass: 0.2, centre: Vector3::zeros(), inertia };
+/// assert!(disc.consistency().least_moment.abs() < 1e-12);
+/// // Measured a little too small across, it could not be, and is mended.
+/// let mut measured = disc;
+/// measured.inertia[(0, 0)] *= 0.9;
+/// assert!(measured.consistency().least_moment < -1e-6);
+/// assert!(measured.made_consistent().consistency().least_moment > -1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     /// \[kg\].
@@ -17,6 +33,19 @@ pub struct Body {
 
 /// Whether an inertia can be that of heavy points: no principal moment negative, none larger than the other two together
 /// (Traversaro, Brossette, Escande & Nori 2016; Wensing, Kim & Slotine 2018).
+///
+/// ```
+/// use fingertip_calibration::inertial::{Body, Consistency};
+/// use fingertip_calibration::nalgebra::{Matrix3, Vector3};
+///
+/// // No body has a moment about z that is larger than those about x and y together.
+/// let of = |diagonal: [f64; 3]| -> Consistency {
+///     let inertia = Matrix3::from_diagonal(&Vector3::from(diagonal));
+///     Body { mass: 0.2, centre: Vector3::zeros(), inertia }.consistency()
+/// };
+/// assert!(of([1e-4, 1e-4, 1.5e-4]).least_moment > 0.0);
+/// assert!(of([1e-4, 1e-4, 2.5e-4]).least_moment < 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Consistency {
     /// The least second moment along any direction, `½(I₂ + I₃ − I₁)` of the principal moments \[kg·m²\]: negative if no

@@ -4,6 +4,14 @@ use fingertip_wrench::BadInertialUnit;
 use thiserror::Error;
 
 /// Why a motion does not tell what the sensor carries.
+///
+/// ```
+/// use fingertip_calibration::inertial::{InertialError, InertialOptions, fit_inertial};
+///
+/// // No motion at all.
+/// let error = fit_inertial(&[], &InertialOptions::default()).unwrap_err();
+/// assert!(matches!(error, InertialError::TooShort { .. }), "{error}");
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum InertialError {

@@ -21,6 +21,27 @@ const LEAST_ROWS: usize = 50;
 const ROUNDS: usize = 8;
 
 /// What is known of the inertial unit and of the motion.
+///
+/// ```
+/// # use fingertip_calibration::inertial::MovingSample;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # use fingertip_wrench::InertialReading;
+/// # // 0.4 kg in the sensor's origin, shaken for 4 s: the force is −m times what the accelerometer reads.
+/// # let samples: Vec<MovingSample> = (0..4000).map(|k| {
+/// #     let t = 1e-3 * f64::from(k);
+/// #     let a = Vector3::new(3.0 * (9.0 * t).sin(), 2.0 * (7.0 * t).cos(), 9.8 + (5.0 * t).sin());
+/// #     let reading = InertialReading { acceleration: a, angular_velocity: Vector3::zeros() };
+/// #     let f = -0.4 * a;
+/// #     MovingSample { time: t, wrench: Vector6::new(f.x, f.y, f.z, 0.0, 0.0, 0.0), reading }
+/// # }).collect();
+/// use fingertip_calibration::inertial::{InertialOptions, fit_inertial};
+///
+/// // Readings come at most 20 ms late, and are smoothed over 20 ms.
+/// let options = InertialOptions { time_constant: 0.02, longest_delay: 0.02, ..InertialOptions::default() };
+/// let fit = fit_inertial(&samples, &options)?;
+/// assert!((fit.body.mass - 0.4).abs() < 1e-3 && fit.time_constant == 0.02);
+/// # Ok::<(), fingertip_calibration::inertial::InertialError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InertialOptions {
     /// How the inertial unit sits on the sensor. What its gyroscope reads at rest is found in the rest, if one is told.

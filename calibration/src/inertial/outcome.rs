@@ -7,6 +7,31 @@ use super::body::Body;
 use crate::file::{FileError, InertialUnitFile, PayloadFile, PayloadQuality, Verdict};
 
 /// By how much the inertial readings come later than the wrench.
+///
+/// ```
+/// # use fingertip_calibration::inertial::MovingSample;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # use fingertip_wrench::InertialReading;
+/// # // 0.4 kg in the sensor's origin, shaken for 4 s: the force is −m times what the accelerometer reads.
+/// # let samples: Vec<MovingSample> = (0..4000).map(|k| {
+/// #     let t = 1e-3 * f64::from(k);
+/// #     let a = Vector3::new(3.0 * (9.0 * t).sin(), 2.0 * (7.0 * t).cos(), 9.8 + (5.0 * t).sin());
+/// #     let reading = InertialReading { acceleration: a, angular_velocity: Vector3::zeros() };
+/// #     let f = -0.4 * a;
+/// #     MovingSample { time: t, wrench: Vector6::new(f.x, f.y, f.z, 0.0, 0.0, 0.0), reading }
+/// # }).collect();
+/// # let mut samples = samples;
+/// use fingertip_calibration::inertial::{Delay, InertialOptions, fit_inertial};
+///
+/// // The readings of the accelerometer come 5 ms late.
+/// for k in (5..samples.len()).rev() {
+///     samples[k].reading = samples[k - 5].reading;
+/// }
+/// let options = InertialOptions { longest_delay: 0.02, ..InertialOptions::default() };
+/// let delay: Delay = fit_inertial(&samples, &options)?.delay.ok_or("not found")?;
+/// assert!((delay.seconds - 5e-3).abs() < 1e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delay {
     /// \[s\]; negative if the wrench comes later.
@@ -16,6 +41,29 @@ pub struct Delay {
 }
 
 /// What a motion told.
+///
+/// ```
+/// # use fingertip_calibration::inertial::MovingSample;
+/// # use fingertip_calibration::nalgebra::{Vector3, Vector6};
+/// # use fingertip_wrench::InertialReading;
+/// # // 0.4 kg in the sensor's origin, shaken for 4 s: the force is −m times what the accelerometer reads.
+/// # let samples: Vec<MovingSample> = (0..4000).map(|k| {
+/// #     let t = 1e-3 * f64::from(k);
+/// #     let a = Vector3::new(3.0 * (9.0 * t).sin(), 2.0 * (7.0 * t).cos(), 9.8 + (5.0 * t).sin());
+/// #     let reading = InertialReading { acceleration: a, angular_velocity: Vector3::zeros() };
+/// #     let f = -0.4 * a;
+/// #     MovingSample { time: t, wrench: Vector6::new(f.x, f.y, f.z, 0.0, 0.0, 0.0), reading }
+/// # }).collect();
+/// use fingertip_calibration::inertial::{InertialFit, InertialOptions, fit_inertial};
+///
+/// // 0.4 kg in the sensor's origin, shaken along each axis.
+/// let fit: InertialFit = fit_inertial(&samples, &InertialOptions::default())?;
+/// assert!((fit.body.mass - 0.4).abs() < 1e-4 && fit.body.centre.norm() < 1e-4);
+/// assert!(fit.share_left() < 1e-2);
+/// // It did not turn, and what this leaves open is named.
+/// assert!(fit.undetermined.contains(&"inertia zz"));
+/// # Ok::<(), fingertip_calibration::inertial::InertialError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct InertialFit {
     /// Mass, centre and inertia, as a body can have them.

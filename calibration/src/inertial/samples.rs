@@ -7,6 +7,21 @@ use fingertip_wrench::InertialReading;
 use nalgebra::Vector6;
 
 /// What a moving sensor and the inertial unit on it read at one time.
+///
+/// ```
+/// use fingertip_calibration::inertial::{MovingSample, moving_samples};
+/// use fingertip_recordings::RecordingReader;
+///
+/// // 4 N of weight, and what an accelerometer and a gyroscope read beside it.
+/// let text = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,ax_m_per_s2,ay_m_per_s2,az_m_per_s2,wx_rad_per_s,wy_rad_per_s,\
+///             wz_rad_per_s\n0,0,0,-4,0,0,0,0,0,9.81,0,0,0.1\n";
+/// let mut rows = RecordingReader::new("hand.csv", text.as_bytes())?;
+/// let (samples, left_out) = moving_samples(&mut rows, None, None)?;
+/// let at_rest: &MovingSample = samples.first().ok_or("no row")?;
+/// assert_eq!((left_out, at_rest.wrench.z), (0, -4.0));
+/// assert_eq!((at_rest.reading.acceleration.z, at_rest.reading.angular_velocity.z), (9.81, 0.1));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovingSample {
     /// Time \[s\].

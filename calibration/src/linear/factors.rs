@@ -6,6 +6,21 @@ use super::Singular;
 
 /// What a [`Triangular`](super::Triangular) knows: `Σ x xᵀ = R11ᵀ R11`, `Σ x yᵀ = R11ᵀ R12`, and the residuals'
 /// `Σ r rᵀ = R22ᵀ R22`.
+///
+/// ```
+/// use fingertip_calibration::linear::{Factors, Triangular};
+///
+/// let mut triangular = Triangular::new(2, 1);
+/// for volts in [0.0, 1.0, 2.0, 3.0] {
+///     triangular.push(&[1.0, volts], &[0.5 + 3.0 * volts]);
+/// }
+/// let factors: Factors = triangular.factors();
+/// let line = factors.coefficients()?;
+/// assert!((line[0] - 0.5).abs() < 1e-12 && (line[1] - 3.0).abs() < 1e-12);
+/// // (Σ x xᵀ)⁻¹ of these: 4, 6; 6, 14.
+/// assert!((factors.inverse_gram()?[(1, 1)] - 0.2).abs() < 1e-12);
+/// # Ok::<(), fingertip_calibration::linear::Unobserved>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factors {
     /// R11, upper triangular, regressors × regressors.
@@ -26,6 +41,20 @@ struct Equilibrated {
 }
 
 /// The regressors do not determine the coefficients.
+///
+/// ```
+/// use fingertip_calibration::linear::{Triangular, Unobserved};
+///
+/// // Two gauges that always read the same cannot be told apart.
+/// let mut triangular = Triangular::new(2, 1);
+/// for volts in [1.0, 2.0, 3.0] {
+///     triangular.push(&[volts, volts], &[3.0 * volts]);
+/// }
+/// let unobserved: Unobserved = triangular.factors().coefficients().unwrap_err();
+/// // What was never seen is their difference.
+/// let direction = unobserved.directions.column(0);
+/// assert!((direction[0] + direction[1]).abs() < 1e-9 * direction.norm());
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("the loads leave {} of {regressors} directions unobserved: {}", directions.ncols(), describe(directions, names))]
 pub struct Unobserved {

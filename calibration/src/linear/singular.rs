@@ -9,6 +9,16 @@ use nalgebra::{DMatrix, DVector};
 /// By [one-sided Jacobi rotations](fingertip_wrench::numeric::jacobi), which find small singular values of
 /// matrices with badly scaled columns to high relative accuracy. We do not use nalgebra's `svd`, which gives
 /// wrong vectors for some matrices (its issue 1172).
+///
+/// ```
+/// use fingertip_calibration::linear::Singular;
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// let singular = Singular::new(&DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 8.0, 0.0])).ok_or("not finite")?;
+/// assert!((singular.values[0] - 8.0).abs() < 1e-12 && (singular.values[1] - 2.0).abs() < 1e-12);
+/// assert!((singular.condition_number() - 4.0).abs() < 1e-12 && singular.rank() == 2);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Singular {
     /// Left singular vectors, m × k with k = min(m, n); those of zero singular values are zero.

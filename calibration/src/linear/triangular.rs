@@ -17,6 +17,24 @@ const BLOCK: usize = 128;
 ///
 /// Pushing rows in another order, or merging the accumulators of several sessions with
 /// [`merge`](Self::merge), gives the same answer up to rounding.
+///
+/// ```
+/// use fingertip_calibration::linear::Triangular;
+///
+/// // Two sessions of 10 000 samples each: a force of 2 N/V, beside a zero. No sample is kept.
+/// let (mut morning, mut evening) = (Triangular::new(2, 1), Triangular::new(2, 1));
+/// for i in 0..10_000 {
+///     let volts = f64::from(i % 101) * 0.01;
+///     morning.push(&[1.0, volts], &[2.0 * volts - 0.1]);
+///     evening.push(&[1.0, -volts], &[-2.0 * volts - 0.1]);
+/// }
+/// assert!(morning.merge(&evening) && morning.samples() == 20_000);
+/// // A reading that is no number is refused and counted.
+/// assert!(!morning.push(&[1.0, f64::NAN], &[0.0]) && morning.refused() == 1);
+/// let found = morning.factors().coefficients()?;
+/// assert!((found[0] + 0.1).abs() < 1e-12 && (found[1] - 2.0).abs() < 1e-12);
+/// # Ok::<(), fingertip_calibration::linear::Unobserved>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Triangular {
     regressors: usize,

@@ -11,6 +11,20 @@ use crate::Axis;
 
 /// A CSV with a header, whose columns are taken by name; columns nobody asks for do not matter. Blanks around
 /// cells are passed over, as are lines that start with `#`.
+///
+/// ```
+/// use fingertip_calibration::Axis;
+/// use fingertip_calibration::loads::Columns;
+///
+/// let text = "# Tuesday\npose,fx_N,tz_Nmm\nup,1.5,20\ndown,-1.5,-20\n";
+/// let columns = Columns::from_csv(text.as_bytes())?;
+/// assert_eq!(columns.texts("pose")?, ["up", "down"]);
+/// // In SI, whatever unit the header says.
+/// let (axes, loads) = columns.loads()?;
+/// assert_eq!(axes, [Axis::Fx, Axis::Tz]);
+/// assert!((loads[(0, 1)] - 0.02).abs() < 1e-15 && loads[(1, 0)] == -1.5);
+/// # Ok::<(), fingertip_calibration::loads::LoadError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Columns {
     header: Vec<String>,

@@ -11,6 +11,21 @@ use crate::file::SignalUnit;
 
 /// Reads a table of loads row by row, in the memory of one row: the format of
 /// [`LoadTable::from_csv`](super::LoadTable::from_csv).
+///
+/// ```
+/// use fingertip_calibration::loads::LoadReader;
+///
+/// let text = "fx_N,fz_N,v1_mV,v2_mV\n0,-5,12,300\n1,-5,80,301\n";
+/// let mut reader = LoadReader::new(text.as_bytes())?;
+/// assert_eq!((reader.axes().len(), reader.gauges()), (2, 2));
+/// let (mut rows, mut greatest_volts) = (0, 0.0_f64);
+/// while let Some(row) = reader.next_row()? {
+///     rows += 1;
+///     greatest_volts = row.signals.iter().copied().fold(greatest_volts, f64::max);
+/// }
+/// assert!(rows == 2 && (greatest_volts - 0.301).abs() < 1e-12);
+/// # Ok::<(), fingertip_calibration::loads::LoadError>(())
+/// ```
 #[derive(Debug)]
 pub struct LoadReader<R> {
     table: TableReader<R>,
@@ -21,6 +36,18 @@ pub struct LoadReader<R> {
 }
 
 /// One row of a table of loads.
+///
+/// ```
+/// use fingertip_calibration::loads::{LoadReader, LoadRow};
+///
+/// let text = "t_s,fz_N,v1_mV\n0.5,-5,300\n";
+/// let mut reader = LoadReader::new(text.as_bytes())?;
+/// let row: &LoadRow = reader.next_row()?.ok_or("no row")?;
+/// // Newtons, volts and seconds; the header is line 1.
+/// assert_eq!((row.line, row.loads[0], row.time), (2, -5.0, Some(0.5)));
+/// assert!((row.signals[0] - 0.3).abs() < 1e-15);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoadRow {
     /// Line of the file, counting from 1.

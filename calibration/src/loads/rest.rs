@@ -12,6 +12,18 @@ use super::header::{
 use crate::file::SignalUnit;
 
 /// Readings without load.
+///
+/// ```
+/// use fingertip_calibration::file::SignalUnit;
+/// use fingertip_calibration::loads::{Rest, signals_from_csv};
+///
+/// let text = "v1_mV,v2_mV,temperature_C\n300,-20,21.5\n302,-20,21.5\n";
+/// let rest: Rest = signals_from_csv(text.as_bytes())?;
+/// assert_eq!((rest.unit, rest.signals.nrows()), (SignalUnit::Volt, 2));
+/// assert!((rest.signals.column(0).mean() - 0.301).abs() < 1e-12);
+/// assert_eq!(rest.temperatures, Some(vec![21.5, 21.5]));
+/// # Ok::<(), fingertip_calibration::loads::LoadError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rest {
     /// Samples × gauges.

@@ -11,6 +11,19 @@ use crate::file::SignalUnit;
 ///
 /// Rows are samples. Loads are \[N, N·m\] about the origin of the sensor frame, what the
 /// environment applies to the sensor.
+///
+/// ```
+/// use fingertip_calibration::loads::LoadTable;
+///
+/// // Two mountings, each with a reading without load.
+/// let text = "group,fz_N,v1_V\nmonday,0,0.10\nmonday,-10,1.10\ntuesday,0,0.30\ntuesday,-20,2.30\n";
+/// let (table, ignored) = LoadTable::from_csv(text.as_bytes())?;
+/// assert!(ignored.is_empty() && table.samples() == 4 && table.greatest_loads() == [20.0]);
+/// // With the zero of each mounting taken off, 10 N are 1 V.
+/// let tared = table.tared_by_group()?;
+/// assert!((tared.signals[1] - 1.0).abs() < 1e-12 && (tared.signals[3] - 2.0).abs() < 1e-12);
+/// # Ok::<(), fingertip_calibration::loads::LoadError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadTable {
     /// The components that `loads` has columns for.
@@ -41,6 +54,17 @@ pub struct LoadTable {
 
 /// What became of the zeros of a table's groups. A zero that was taken from the readings themselves has their
 /// noise, which the errors of a fit must know.
+///
+/// ```
+/// use fingertip_calibration::loads::{LoadTable, Zeros};
+///
+/// let (table, _) = LoadTable::from_csv("fz_N,v1_V\n0,0.10\n-10,1.10\n".as_bytes())?;
+/// assert_eq!(table.zeros, Zeros::Kept);
+/// assert_eq!(table.tared_by_group()?.zeros, Zeros::OfRest);
+/// // Without a reading at rest the mean can be taken off.
+/// assert_eq!(table.centred_by_group().zeros, Zeros::OfMean);
+/// # Ok::<(), fingertip_calibration::loads::LoadError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Zeros {
     /// The readings are as they were.
@@ -53,6 +77,15 @@ pub enum Zeros {
 }
 
 /// Why there is no table of loads.
+///
+/// ```
+/// use fingertip_calibration::loads::{LoadError, LoadTable};
+///
+/// let error = LoadTable::from_csv("fz_N,v1_V\n-5,0.5\n-10,one\n".as_bytes()).unwrap_err();
+/// // It says where.
+/// assert!(matches!(&error, LoadError::BadText { line: 3, column, .. } if column == "v1_V"));
+/// assert!(error.to_string().contains("v1_V"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum LoadError {

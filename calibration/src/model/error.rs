@@ -8,6 +8,21 @@ use crate::fit::FitError;
 use crate::loads::LoadError;
 
 /// Why there is no calibration.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::calibrate;
+/// use fingertip_calibration::model::{CalibrationError, Options};
+///
+/// // A full scale of −10 N is none.
+/// let options = Options { nominal: Some(vec![-10.0; 3]), ..Options::default() };
+/// assert!(matches!(calibrate(&table, &options), Err(CalibrationError::BadOption { .. })));
+/// # Ok::<(), fingertip_calibration::loads::LoadError>(())
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CalibrationError {

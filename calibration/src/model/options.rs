@@ -6,6 +6,26 @@ use crate::design::TouchSet;
 use crate::file::CalibrationFile;
 
 /// Which of load and signal is taken as the cause in the regression.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::calibrate;
+/// use fingertip_calibration::model::{Direction, Options};
+///
+/// let [forward, inverse] = [Direction::SignalsFromLoads, Direction::LoadsFromSignals].map(|direction| {
+///     calibrate(&table, &Options { direction, ..Options::default() })
+/// });
+/// // With a millivolt of noise in a volt both find 0.1 V/N, which is 0.95 V under the greatest load.
+/// for calibration in [forward?, inverse?] {
+///     let (volts, _) = calibration.model.matrix_and_zero()?;
+///     assert!((volts[(0, 0)] - 0.95).abs() < 1e-3);
+/// }
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// `signals = C · load + zero`, the physical one: errors are in the readings. The default.
@@ -17,6 +37,27 @@ pub enum Direction {
 }
 
 /// By which method to fit.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// # let mut table = table;
+/// use fingertip_calibration::calibrate;
+/// use fingertip_calibration::model::{Method, Options};
+///
+/// // One reading of sixty is wrong by 1 V; the gauge has 0.1 V/N, 0.95 V under the greatest load.
+/// table.signals[(57, 0)] += 1.0;
+/// let error = |method| -> Result<f64, Box<dyn core::error::Error>> {
+///     let calibration = calibrate(&table, &Options { method, ..Options::default() })?;
+///     Ok((calibration.model.matrix_and_zero()?.0[(0, 0)] - 0.95).abs())
+/// };
+/// assert!(error(Method::LeastSquares)? > 0.01);
+/// assert!(error(Method::Huber)? < 1e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
@@ -74,6 +115,24 @@ impl Method {
 }
 
 /// What is fitted beside what is proportional to the signals.
+///
+/// ```
+/// use fingertip_calibration::model::{Curvature, Direction, Options};
+/// use fingertip_calibration::{Axis, calibrate, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+///
+/// // A gauge that bends: F = 10 N/V · v + 2 N/V² · v², from −1 V to 1 V.
+/// let volts = DMatrix::from_fn(41, 1, |i, _| 0.05 * i as f64 - 1.0);
+/// let newtons = volts.map(|v| 10.0 * v + 2.0 * v * v);
+/// let table = LoadTable::new(&[Axis::Fz], newtons, volts, SignalUnit::Volt)?;
+/// let options = Options {
+///     direction: Direction::LoadsFromSignals,
+///     curvature: Curvature::Quadratic,
+///     ..Options::default()
+/// };
+/// let file = calibrate(&table, &options)?.to_file()?;
+/// assert!((file.load(&[0.5])?[0] - 5.5).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Curvature {
@@ -114,6 +173,31 @@ impl Curvature {
 }
 
 /// How to calibrate.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::calibrate;
+/// use fingertip_calibration::model::{Method, Options};
+///
+/// // A full scale of 20 N, readings of ±0.9 V and more left out as saturated, no zero, robust.
+/// let options = Options {
+///     nominal: Some(vec![20.0; 3]),
+///     range: Some([-0.9, 0.9]),
+///     bias: false,
+///     method: Method::Huber,
+///     ..Options::default()
+/// };
+/// let calibration = calibrate(&table, &options)?;
+/// // 0.95 V were read of ±9.5 N, three times each.
+/// assert_eq!(calibration.report.excluded.len(), 6);
+/// let (volts, _) = calibration.model.matrix_and_zero()?;
+/// assert!((volts[(0, 0)] - 2.0).abs() < 1e-2);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Which way the regression goes.
@@ -177,6 +261,26 @@ impl Default for Options {
 }
 
 /// What a good calibration must reach; beyond, it is stamped as bad.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::calibrate;
+/// use fingertip_calibration::file::Verdict;
+/// use fingertip_calibration::model::{Limits, Options};
+///
+/// // 1 mV of noise in 1 V passes 2 % of full scale, and fails a thousandth of a per cent.
+/// let verdict = |left_out_percent| {
+///     let limits = Limits { left_out_percent, ..Limits::default() };
+///     calibrate(&table, &Options { limits, ..Options::default() }).map(|calibration| calibration.report.verdict)
+/// };
+/// assert_eq!(verdict(2.0)?, Verdict::Good);
+/// assert_eq!(verdict(0.001)?, Verdict::Bad);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// RMS error of any axis on loads left out of the fit, % of full scale. The default is 2 %, the

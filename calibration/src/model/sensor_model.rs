@@ -13,6 +13,23 @@ use crate::linear::{Singular, less, pseudo_inverse, quick_inverse};
 use crate::loads::LoadTable;
 
 /// A fitted sensor: what turns readings into loads.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::calibrate;
+/// use fingertip_calibration::model::{Options, SensorModel};
+///
+/// let model: SensorModel = calibrate(&table, &Options::default())?.model;
+/// // Three gauges of 0.1 V/N, alike.
+/// assert!(model.gauges() == 3 && (model.condition_number() - 1.0).abs() < 1e-2);
+/// let newtons = model.loads(&DMatrix::from_row_slice(1, 3, &[0.2, 0.0, -0.4])).ok_or("singular")?;
+/// assert!((newtons[(0, 0)] - 2.0).abs() < 0.01 && (newtons[(0, 2)] + 4.0).abs() < 0.01);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorModel {
     /// The components that it measures.
@@ -271,6 +288,24 @@ impl SensorModel {
 }
 
 /// How surely a model tells a load: see [`SensorModel::load_covariance`].
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::calibrate;
+/// use fingertip_calibration::model::{LoadCovariance, Options};
+///
+/// let model = calibrate(&table, &Options::default())?.model;
+/// let covariance: LoadCovariance = model.load_covariance().ok_or("singular")?;
+/// // A sine of 1 mV has a deviation of 0.7 mV, and so 7 mN; far from the loads of the fit there is more.
+/// let newtons = |load: &[f64; 3]| covariance.at(load)[(0, 0)].sqrt();
+/// assert!((newtons(&[0.0; 3]) - 7.1e-3).abs() < 0.5e-3);
+/// assert!(newtons(&[100.0, 0.0, 0.0]) > 1.5 * newtons(&[0.0; 3]));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadCovariance {
     /// Loads \[N, N·m\] per signal.

@@ -9,6 +9,24 @@ use crate::linear::{Singular, Unobserved, pseudo_inverse};
 
 /// What a force of constant size in unknown directions tells of a sensor: its forces up to one
 /// rotation (or reflection) of all of them, and its zero.
+///
+/// ```
+/// use fingertip_calibration::motion::{ConstantForce, constant_force};
+/// use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3};
+///
+/// // 5 N in 40 directions that nobody knows; three gauges of 0.1 V/N, 0.2 V/N and 0.3 V/N with a zero of 0.5 V.
+/// let direction = |k: usize| {
+///     let (around, up) = (2.4 * k as f64, (k as f64 - 19.5) / 20.0);
+///     Vector3::new(around.cos() * (1.0 - up * up).sqrt(), around.sin() * (1.0 - up * up).sqrt(), up)
+/// };
+/// let volts = DMatrix::from_fn(40, 3, |k, i| 0.5 + 0.1 * (i + 1) as f64 * 5.0 * direction(k)[i]);
+/// let found: ConstantForce = constant_force(&volts, 5.0)?;
+/// assert!((found.zero[0] - 0.5).abs() < 1e-9);
+/// // How strong a force is, if not yet where it points: 0.9 V beyond zero on the last gauge.
+/// let force = found.force(&DVector::from_vec(vec![0.5, 0.5, 1.4])).ok_or("wrong length")?;
+/// assert!((force.norm() - 3.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantForce {
     /// Forces \[N\] = this · (signals − zero), 3 × gauges; known up to an orthogonal matrix from the left.
@@ -36,6 +54,18 @@ pub struct ConstantForce {
 }
 
 /// Why motion tells no shape.
+///
+/// ```
+/// use fingertip_calibration::motion::{MotionError, constant_force};
+/// use fingertip_calibration::nalgebra::DMatrix;
+///
+/// // Readings of a force that was not constant: they lie on a hyperboloid.
+/// let volts = DMatrix::from_fn(40, 3, |k, i| {
+///     let (around, up) = (2.4 * k as f64, (k as f64 - 19.5) / 10.0);
+///     [around.cos() * up.cosh(), around.sin() * up.cosh(), up.sinh()][i]
+/// });
+/// assert!(matches!(constant_force(&volts, 5.0), Err(MotionError::NotAnEllipsoid)));
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MotionError {

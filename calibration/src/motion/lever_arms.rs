@@ -11,6 +11,34 @@ use crate::fit::FitError;
 use crate::linear::pseudo_inverse;
 
 /// A weight hung at one point of the sensor, turned into unknown directions.
+///
+/// ```
+/// # use fingertip_calibration::nalgebra::{DMatrix, Vector3};
+/// # // Six gauges: 0.5 V/N or 5 V/(N·m) on the axis of each, and a tenth of it on the next; a zero of 0.2 V.
+/// # let volts_of = |force: &Vector3<f64>, arm: &Vector3<f64>| -> [f64; 6] {
+/// #     let torque = arm.cross(force) * 10.0;
+/// #     let load = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+/// #     core::array::from_fn(|i| 0.2 + 0.5 * load[i] + 0.05 * load[(i + 1) % 6])
+/// # };
+/// # let volts = |arm: &Vector3<f64>, k: usize| {
+/// #     let (around, up) = (2.4 * k as f64 + 50.0 * arm.sum(), (k as f64 - 6.5) / 7.0);
+/// #     let across = (1.0 - up * up).sqrt();
+/// #     volts_of(&(Vector3::new(around.cos() * across, around.sin() * across, up) * 5.0), arm)
+/// # };
+/// # let places = [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1], [-0.05, -0.06, 0.02]].map(Vector3::from);
+/// use fingertip_calibration::motion::{LeverArm, lever_arms};
+///
+/// // 5 N hung 100 mm from the sensor along x, y and z, and at a fourth point that is in no plane with these.
+/// let hung: Vec<LeverArm> = places
+///     .map(|arm| LeverArm { arm, signals: DMatrix::from_fn(14, 6, |k, i| volts(&arm, k)[i]) })
+///     .into();
+/// let found = lever_arms(&hung, 5.0, 1e-6, 60, 1)?;
+/// // Its zero is 0.2 V on each gauge.
+/// assert!(found.zero.iter().all(|zero| (zero - 0.2).abs() < 1e-6));
+/// // Three arms are too few.
+/// assert!(lever_arms(&hung[..3], 5.0, 1e-6, 60, 1).is_err());
+/// # Ok::<(), fingertip_calibration::motion::MotionError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverArm {
     /// Where it hangs, in the sensor frame \[m\].
@@ -20,6 +48,35 @@ pub struct LeverArm {
 }
 
 /// A sensor of six components found without knowing any direction.
+///
+/// ```
+/// # use fingertip_calibration::nalgebra::{DMatrix, Vector3};
+/// # // Six gauges: 0.5 V/N or 5 V/(N·m) on the axis of each, and a tenth of it on the next; a zero of 0.2 V.
+/// # let volts_of = |force: &Vector3<f64>, arm: &Vector3<f64>| -> [f64; 6] {
+/// #     let torque = arm.cross(force) * 10.0;
+/// #     let load = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+/// #     core::array::from_fn(|i| 0.2 + 0.5 * load[i] + 0.05 * load[(i + 1) % 6])
+/// # };
+/// # let volts = |arm: &Vector3<f64>, k: usize| {
+/// #     let (around, up) = (2.4 * k as f64 + 50.0 * arm.sum(), (k as f64 - 6.5) / 7.0);
+/// #     let across = (1.0 - up * up).sqrt();
+/// #     volts_of(&(Vector3::new(around.cos() * across, around.sin() * across, up) * 5.0), arm)
+/// # };
+/// # let places = [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1], [-0.05, -0.06, 0.02]].map(Vector3::from);
+/// use fingertip_calibration::motion::{LeverArm, LeverArmFit, lever_arms};
+/// use fingertip_calibration::nalgebra::DVector;
+///
+/// // 5 N hung at four points, in directions that nobody knows.
+/// let hung: Vec<LeverArm> = places
+///     .map(|arm| LeverArm { arm, signals: DMatrix::from_fn(14, 6, |k, i| volts(&arm, k)[i]) })
+///     .into();
+/// let found: LeverArmFit = lever_arms(&hung, 5.0, 1e-6, 60, 1)?;
+/// // The sign is settled by a push of 1 N along z, which gives 0.5 V and more.
+/// let reading = DVector::from_iterator(6, volts_of(&Vector3::z(), &Vector3::zeros()));
+/// let signed = found.with_sign(&reading, &Vector3::z()).ok_or("wrong length")?;
+/// assert!((signed.sensitivities[(2, 2)] - 0.5).abs() < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverArmFit {
     /// signals − zero = this · \[force; torque\], gauges × 6, \[signal/N, signal/(N·m)\]. **Its sign is

@@ -4,6 +4,16 @@ use fingertip_surfaces::BadShape;
 use thiserror::Error;
 
 /// Why touches tell no object.
+///
+/// ```
+/// use fingertip_calibration::object::{ObjectError, PoseNoise, fit_sphere};
+///
+/// // Nothing was touched, and a noise below zero is none.
+/// let noise = PoseNoise::new(1e-4, 1e-3)?;
+/// assert!(matches!(fit_sphere(&[], noise), Err(ObjectError::TooFew { points: 0, .. })));
+/// assert!(matches!(PoseNoise::new(-1e-4, 1e-3), Err(ObjectError::BadNoise)));
+/// # Ok::<(), ObjectError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ObjectError {

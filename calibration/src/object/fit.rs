@@ -7,6 +7,32 @@ use crate::fit::student_factor;
 use crate::linear::{Factors, Triangular, Unobserved};
 
 /// An object's shape, and how sure it is.
+///
+/// ```
+/// # use fingertip_calibration::object::{ObjectPoint, PoseNoise};
+/// # use fingertip_calibration::nalgebra::{Matrix3, Vector3};
+/// # // A touch of a sphere around the origin, from without (1) or within (−1), off by about 0.1 mm.
+/// # let touched = |k: i32, radius: f64, side: f64| {
+/// #     let (around, up) = (2.4 * f64::from(k), f64::from(k - 20) / 22.0);
+/// #     let place = Vector3::new(around.cos(), around.sin(), 2.0 * up).normalize();
+/// #     let error = Vector3::new((5.1 * f64::from(k)).sin(), (7.3 * f64::from(k)).cos(), (11.7 * f64::from(k)).sin());
+/// #     ObjectPoint {
+/// #         point: place * radius + error * 1e-4,
+/// #         normal: place * side,
+/// #         covariance: Matrix3::zeros(),
+/// #         bend: Matrix3::zeros(),
+/// #     }
+/// # };
+/// use fingertip_calibration::object::{FittedObject, fit_sphere};
+/// use fingertip_surfaces::Sphere;
+///
+/// // A ball of 30 mm, touched from without; each pose is off by about 0.1 mm.
+/// let touches: Vec<ObjectPoint> = (0..40).map(|k| touched(k, 0.03, 1.0)).collect();
+/// let ball: FittedObject<Sphere<f64>> = fit_sphere(&touches, PoseNoise::new(1e-4, 1e-3)?)?;
+/// assert!((ball.shape.radius() - 0.03).abs() < ball.half_widths(0.999)[0]);
+/// assert!(ball.distance > 0.02e-3 && ball.distance < 0.2e-3);
+/// # Ok::<(), fingertip_calibration::object::ObjectError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedObject<S> {
     /// The shape, in the frame of the object.
@@ -27,6 +53,32 @@ pub struct FittedObject<S> {
 }
 
 /// Whether an object is touched from within.
+///
+/// ```
+/// # use fingertip_calibration::object::{ObjectPoint, PoseNoise};
+/// # use fingertip_calibration::nalgebra::{Matrix3, Vector3};
+/// # // A touch of a sphere around the origin, from without (1) or within (−1), off by about 0.1 mm.
+/// # let touched = |k: i32, radius: f64, side: f64| {
+/// #     let (around, up) = (2.4 * f64::from(k), f64::from(k - 20) / 22.0);
+/// #     let place = Vector3::new(around.cos(), around.sin(), 2.0 * up).normalize();
+/// #     let error = Vector3::new((5.1 * f64::from(k)).sin(), (7.3 * f64::from(k)).cos(), (11.7 * f64::from(k)).sin());
+/// #     ObjectPoint {
+/// #         point: place * radius + error * 1e-4,
+/// #         normal: place * side,
+/// #         covariance: Matrix3::zeros(),
+/// #         bend: Matrix3::zeros(),
+/// #     }
+/// # };
+/// use fingertip_calibration::object::{Concave, fit_sphere};
+///
+/// // The same sphere from without, and as a bowl from within.
+/// let noise = PoseNoise::new(1e-4, 1e-3)?;
+/// for (side, concave) in [(1.0, Concave::No), (-1.0, Concave::Yes)] {
+///     let touches: Vec<ObjectPoint> = (0..40).map(|k| touched(k, 0.03, side)).collect();
+///     assert_eq!(fit_sphere(&touches, noise)?.concave, concave);
+/// }
+/// # Ok::<(), fingertip_calibration::object::ObjectError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Concave {
     /// A ball, a rod, a flat side.

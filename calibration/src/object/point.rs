@@ -46,6 +46,31 @@ pub struct ObjectPoint {
 }
 
 /// How far off the pose of the fingertip is, touch by touch.
+///
+/// ```
+/// # use fingertip_calibration::object::{ObjectPoint, PoseNoise};
+/// # use fingertip_calibration::nalgebra::{Matrix3, Vector3};
+/// # // A touch of a sphere around the origin, from without (1) or within (−1), off by about 0.1 mm.
+/// # let touched = |k: i32, radius: f64, side: f64| {
+/// #     let (around, up) = (2.4 * f64::from(k), f64::from(k - 20) / 22.0);
+/// #     let place = Vector3::new(around.cos(), around.sin(), 2.0 * up).normalize();
+/// #     let error = Vector3::new((5.1 * f64::from(k)).sin(), (7.3 * f64::from(k)).cos(), (11.7 * f64::from(k)).sin());
+/// #     ObjectPoint {
+/// #         point: place * radius + error * 1e-4,
+/// #         normal: place * side,
+/// #         covariance: Matrix3::zeros(),
+/// #         bend: Matrix3::zeros(),
+/// #     }
+/// # };
+/// use fingertip_calibration::object::fit_sphere;
+///
+/// // Poses that were said to be exact to 0.01 mm, and are off by 0.1 mm: the fit finds that out.
+/// let touches: Vec<ObjectPoint> = (0..40).map(|k| touched(k, 0.03, 1.0)).collect();
+/// let said = fit_sphere(&touches, PoseNoise::new(1e-5, 1e-4)?)?.noise_scale;
+/// let true_to_it = fit_sphere(&touches, PoseNoise::new(1e-4, 1e-3)?)?.noise_scale;
+/// assert!(said > 5.0 * true_to_it);
+/// # Ok::<(), fingertip_calibration::object::ObjectError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseNoise {
     /// Standard deviation of the position along each axis \[m\].

@@ -25,6 +25,17 @@ pub fn thinned(spans: &[(f64, f64)], size: f64) -> usize {
 }
 
 /// The texts of a drawing that stand at any places: the first to come has the place.
+///
+/// ```
+/// use fingertip_calibration::page::Placed;
+///
+/// // Left, right, top and bottom of each text in the units of the drawing.
+/// let mut placed = Placed::default();
+/// assert!(placed.take([10.0, 50.0, 10.0, 20.0]));
+/// // The next would stand over it; below it has room.
+/// assert!(!placed.take([40.0, 90.0, 15.0, 25.0]));
+/// assert!(placed.take([40.0, 90.0, 20.0, 30.0]));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Placed(Vec<[f64; 4]>);
 

@@ -29,6 +29,15 @@ pub struct Svg {
 pub const TICK_SIZE: f64 = 11.0;
 
 /// Where a text is attached.
+///
+/// ```
+/// use fingertip_calibration::page::{Anchor, Svg};
+///
+/// let mut svg = Svg::new(200.0, 100.0, "a label at the right edge");
+/// svg.label("name", (200.0, 50.0), Anchor::End, "F < 5 N");
+/// let drawing = svg.finish();
+/// assert!(drawing.contains(r#"text-anchor="end""#) && drawing.contains("F &lt; 5 N"));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Anchor {
     /// At its beginning.

@@ -16,6 +16,29 @@ use crate::linear::pseudo_inverse;
 /// First order: the covariance of the wrench, `C⁺ (Σ_V + Cov(C x)) C⁺ᵀ`, carried to the contact point by
 /// the derivative of the crossing of the line of action with the surface. Too small, therefore, near
 /// grazing. The zero is taken to be tared, and the surface to be known exactly.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Six loads one after another, up to ±9.5 N and ±95 N·mm; gauges of 0.1 V/N or 10 V/(N·m) that scatter.
+/// # let size = [1.0, 1.0, 1.0, 0.01, 0.01, 0.01];
+/// # let loads = DMatrix::from_fn(120, 6, |i, j| if i % 6 == j { ((i / 6) as f64 - 9.5) * size[j] } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, load| 0.1 * load / size[j] + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::design::{Touch, TouchSet};
+/// use fingertip_calibration::report::ContactReport;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// let touches = Touch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?;
+/// let options = Options {
+///     touches: Some(TouchSet { surface: "sphere of 13 mm".into(), touches }),
+///     ..Options::default()
+/// };
+/// let contacts: ContactReport = calibrate(&table, &options)?.report.contacts.ok_or("not six axes")?;
+/// // 0.07 N·mm and 7 mN on 13 mm, over 5 N: some hundredths of a millimetre, nearly all by the reading.
+/// assert!(contacts.reading_mm > 0.01 && contacts.reading_mm < 0.1 && (contacts.force - 5.0).abs() < 0.01);
+/// assert!((contacts.together_mm - contacts.reading_mm.hypot(contacts.calibration_mm)).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactReport {
     /// What the surface is.

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::contact::{ContactReport, contact_report};
 use super::creep::CreepReport;
 use super::curve::CurveReport;
+use super::exclusion::Exclusion;
 use super::metrics::{AxisReport, LineReport, axis_reports, cross_talk, lines};
 use super::outliers::{Outlier, outliers};
 use super::predicted::{beyond, predicted};
@@ -26,6 +27,26 @@ const COVERED: f64 = 0.75;
 
 /// What can be said of a calibration: written to a terminal by `Display`, as HTML with plots by
 /// [`to_html`](Self::to_html), as JSON by [`to_json`](Self::to_json).
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::file::Verdict;
+/// use fingertip_calibration::report::Report;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// let report: Report = calibrate(&table, &Options::default())?.report;
+/// assert_eq!((report.verdict, report.samples, report.axes.len()), (Verdict::Good, 60, 3));
+/// assert!(report.condition_number.is_some_and(|number| number < 1.01) && report.outliers.is_empty());
+/// // For the terminal, as a page, and for programs.
+/// assert!(report.to_string().contains("condition number"));
+/// assert!(report.to_html("Force sensor", &[("serial", "FT-0042".into())]).contains("FT-0042"));
+/// assert!(report.to_json()?.contains("\"verdict\""));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// How the calibration was fitted.
@@ -74,15 +95,6 @@ pub struct Report {
     pub suspicions: Vec<Suspicion>,
     /// Every sample: what it was and what the sensor says.
     pub details: Samples,
-}
-
-/// A sample that was left out.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Exclusion {
-    /// What it is called.
-    pub sample: String,
-    /// Why.
-    pub reason: String,
 }
 
 impl Report {

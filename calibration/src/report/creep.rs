@@ -8,6 +8,30 @@ use super::AxisReport;
 use crate::creep::{Creep, CreepFit};
 
 /// Figures of load cycles of one axis, % of full scale; `None` where the table of loads does not tell.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // 12 cycles: 20 s without load, 20 s with 10 N and less; a gauge of 0.1 V/N of which a solid with 8 s adds 4 %.
+/// # let newtons = DMatrix::from_fn(480, 1, |second, _| {
+/// #     if second % 40 < 20 { 0.0 } else { 10.0 - 0.5 * (second / 40) as f64 }
+/// # });
+/// # let mut lasting = 0.0;
+/// # let volts = newtons.map(|newtons| {
+/// #     let signal = 0.1 * newtons;
+/// #     lasting += (signal - lasting) * (1.0 - (-1.0_f64 / 8.0).exp());
+/// #     signal + 0.04 * lasting
+/// # });
+/// # let mut table = LoadTable::new(&[Axis::Fz], newtons, volts, SignalUnit::Volt)?;
+/// # table.times = Some((0..480).map(f64::from).collect());
+/// use fingertip_calibration::report::CycleFigures;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // A gauge that creeps by 4 %: held loads seem to grow, until that is taken off.
+/// let creep = calibrate(&table, &Options { creep: true, ..Options::default() })?.report.creep.ok_or("none")?;
+/// let (before, after): (CycleFigures, CycleFigures) = (creep.before[0], creep.after[0]);
+/// assert!(after.zero_return_percent.ok_or("none")? < 0.5 * before.zero_return_percent.ok_or("none")?);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CycleFigures {
     /// Greatest difference between rising and falling load.
@@ -26,6 +50,31 @@ impl From<&AxisReport> for CycleFigures {
 }
 
 /// What was found of a sensor's creep, and what its compensation leaves.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // 12 cycles: 20 s without load, 20 s with 10 N and less; a gauge of 0.1 V/N of which a solid with 8 s adds 4 %.
+/// # let newtons = DMatrix::from_fn(480, 1, |second, _| {
+/// #     if second % 40 < 20 { 0.0 } else { 10.0 - 0.5 * (second / 40) as f64 }
+/// # });
+/// # let mut lasting = 0.0;
+/// # let volts = newtons.map(|newtons| {
+/// #     let signal = 0.1 * newtons;
+/// #     lasting += (signal - lasting) * (1.0 - (-1.0_f64 / 8.0).exp());
+/// #     signal + 0.04 * lasting
+/// # });
+/// # let mut table = LoadTable::new(&[Axis::Fz], newtons, volts, SignalUnit::Volt)?;
+/// # table.times = Some((0..480).map(f64::from).collect());
+/// use fingertip_calibration::report::CreepReport;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // A gauge that creeps by 4 % within 8 s.
+/// let options = Options { creep: true, ..Options::default() };
+/// let report: CreepReport = calibrate(&table, &options)?.report.creep.ok_or("none")?;
+/// assert!(report.cycles == 12 && report.with_percent < 0.3 * report.without_percent);
+/// assert!(report.creep.times_s.iter().any(|seconds| (seconds / 8.0 - 1.0).abs() < 0.3));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CreepReport {
     /// Over which times it creeps, and the share of each gauge; none if no compensation helps.

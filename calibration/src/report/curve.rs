@@ -7,6 +7,27 @@ use serde::Serialize;
 use crate::curve::Chosen;
 
 /// What terms of higher order are worth that were chosen by leaving out load cases.
+///
+/// ```
+/// use fingertip_calibration::model::{Curvature, Direction, Options};
+/// use fingertip_calibration::report::CurveReport;
+/// use fingertip_calibration::{Axis, calibrate, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+///
+/// // A gauge that bends: F = 10 N/V · v + 2 N/V² · v², from −1 V to 1 V.
+/// let volts = DMatrix::from_fn(41, 1, |i, _| 0.05 * i as f64 - 1.0);
+/// let newtons = volts.map(|v| 10.0 * v + 2.0 * v * v);
+/// let table = LoadTable::new(&[Axis::Fz], newtons, volts, SignalUnit::Volt)?;
+/// let options = Options {
+///     direction: Direction::LoadsFromSignals,
+///     curvature: Curvature::Chosen,
+///     ..Options::default()
+/// };
+/// let curve: CurveReport = calibrate(&table, &options)?.report.curve.ok_or("none was looked for")?;
+/// // The square explains what a straight line leaves.
+/// assert!(curve.taken && curve.described.contains("v1·v1"));
+/// assert!(curve.left_out_percent < 0.01 * curve.straight_percent);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CurveReport {
     /// Whether the calibration has them; otherwise it could.

@@ -13,6 +13,24 @@ use crate::loads::{LoadTable, same_loads};
 
 /// Errors of one axis. Percentages are of full scale; `None` where the table of loads does not
 /// tell.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::report::AxisReport;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // 7 mN of scatter and a full scale of 9.5 N: 0.07 %.
+/// let report = calibrate(&table, &Options::default())?.report;
+/// let first: &AxisReport = &report.axes[0];
+/// assert_eq!((first.axis, first.full_scale), (Axis::Fx, 9.5));
+/// assert!((first.rms_percent - 100.0 * first.rms / 9.5).abs() < 1e-9 && first.rms_percent < 0.1);
+/// assert!(first.greatest_percent > first.rms_percent);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AxisReport {
     /// Which axis.
@@ -263,6 +281,23 @@ pub(crate) fn cross_talk(
 }
 
 /// How well lines of action are found: what a calibration is worth for touch.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Six loads one after another, up to ±9.5 N and ±95 N·mm; gauges of 0.1 V/N or 10 V/(N·m) that scatter.
+/// # let size = [1.0, 1.0, 1.0, 0.01, 0.01, 0.01];
+/// # let loads = DMatrix::from_fn(120, 6, |i, j| if i % 6 == j { ((i / 6) as f64 - 9.5) * size[j] } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, load| 0.1 * load / size[j] + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::report::LineReport;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // Torques that scatter by 0.07 N·mm shift the line of a force of some newtons by some hundredths of a millimetre.
+/// let lines: LineReport = calibrate(&table, &Options::default())?.report.lines.ok_or("no forces")?;
+/// assert!(lines.lines > 0 && lines.median_mm > 1e-3 && lines.median_mm < 0.1);
+/// assert!(lines.greatest_mm > lines.median_mm);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LineReport {
     /// How many samples are pure forces on a known line.

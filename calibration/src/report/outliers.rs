@@ -11,6 +11,24 @@ use crate::fit::Fit;
 use crate::loads::Names;
 
 /// A sample that does not fit the others.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// # let mut table = table;
+/// use fingertip_calibration::report::Outlier;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// // A reading that is off by 20 mV among others that scatter by 1 mV.
+/// table.signals[(30, 0)] += 0.02;
+/// let outliers: Vec<Outlier> = calibrate(&table, &Options::default())?.report.outliers;
+/// let [outlier] = &outliers[..] else { return Err("not one".into()) };
+/// assert!(outlier.index == 30 && outlier.deviations.abs() > 10.0 && outlier.chance < 1e-6);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outlier {
     /// Position in the table that was fitted.

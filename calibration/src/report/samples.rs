@@ -7,6 +7,23 @@ use serde::{Serialize, Serializer};
 use crate::loads::Names;
 
 /// Every sample of a report. It is written to JSON as a list of [`SampleReport`].
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::report::Samples;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// let samples: Samples = calibrate(&table, &Options::default())?.report.details;
+/// assert_eq!(samples.len(), 60);
+/// // What was hung on, and what the sensor says, are apart by less than 20 mN throughout.
+/// assert!((&samples.applied - &samples.measured).amax() < 0.02);
+/// assert!(samples.get(60).is_none());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
     /// What they are called.
@@ -20,6 +37,24 @@ pub struct Samples {
 }
 
 /// One sample, \[N, N·m\] in the order of the axes.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Three forces one after another, up to ±9.5 N; each has a gauge of 0.1 V/N, and they scatter by a millivolt.
+/// # let loads = DMatrix::from_fn(60, 3, |i, j| if i % 3 == j { (i / 3) as f64 - 9.5 } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, newtons| 0.1 * newtons + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::FORCES, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::report::SampleReport;
+/// use fingertip_calibration::{calibrate, model::Options};
+///
+/// let report = calibrate(&table, &Options::default())?.report;
+/// // The first sample: −9.5 N on Fx, as fitted and as the other samples tell it.
+/// let first: SampleReport = report.details.get(0).ok_or("none")?;
+/// assert_eq!(first.applied, [-9.5, 0.0, 0.0]);
+/// let left_out = first.left_out.ok_or("needed")?;
+/// assert!((first.measured[0] + 9.5).abs() < 0.02 && (left_out[0] + 9.5).abs() < 0.02);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SampleReport {
     /// What it is called.
@@ -94,6 +129,18 @@ impl Serialize for Samples {
 }
 
 /// What a fit says of each load case that it has not seen.
+///
+/// ```
+/// use fingertip_calibration::report::LeftOut;
+///
+/// // Two samples of one axis \[N\]; only of the first is told.
+/// let mut left_out = LeftOut::new(2, 1);
+/// left_out.tell(0, &[1.5]);
+/// assert_eq!((left_out.load(0), left_out.load(1)), (Some(vec![1.5]), None));
+/// assert!(left_out.all().is_none());
+/// left_out.tell(1, &[-2.0]);
+/// assert_eq!(left_out.all().map(|loads| loads.sum()), Some(-0.5));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftOut {
     /// Samples × axes \[N, N·m\]; a row of zeros where nothing is told.

@@ -12,6 +12,27 @@ use crate::linear::{Singular, pseudo_inverse};
 use crate::loads::{LoadTable, spread};
 
 /// A mistake that would explain the errors.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Six loads one after another, up to ±9.5 N and ±95 N·mm; gauges of 0.1 V/N or 10 V/(N·m) that scatter.
+/// # let size = [1.0, 1.0, 1.0, 0.01, 0.01, 0.01];
+/// # let loads = DMatrix::from_fn(120, 6, |i, j| if i % 6 == j { ((i / 6) as f64 - 9.5) * size[j] } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, load| 0.1 * load / size[j] + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::model::{Limits, Options};
+/// use fingertip_calibration::report::{Report, Suspicion};
+///
+/// let file = fingertip_calibration::calibrate(&table, &Options::default())?.to_file()?;
+/// // Somebody checks it with torques in N·mm, and says that they are in N·m.
+/// let mut wrong = table.clone();
+/// wrong.loads.columns_mut(3, 3).scale_mut(1000.0);
+/// let report = Report::of_check(&file, &wrong, &Limits::default(), None)?;
+/// let suspicion: &Suspicion = report.suspicions.first().ok_or("nothing is suspected")?;
+/// assert!(suspicion.after_percent < 0.1 * suspicion.before_percent);
+/// assert!(suspicion.to_string().starts_with("Tx, Ty, Tz too small by a factor of 1000.0"), "{suspicion}");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Suspicion {
     /// What seems to be wrong.
@@ -25,6 +46,26 @@ pub struct Suspicion {
 }
 
 /// What people get wrong.
+///
+/// ```
+/// # use fingertip_calibration::{Axis, file::SignalUnit, loads::LoadTable, nalgebra::DMatrix};
+/// # // Six loads one after another, up to ±9.5 N and ±95 N·mm; gauges of 0.1 V/N or 10 V/(N·m) that scatter.
+/// # let size = [1.0, 1.0, 1.0, 0.01, 0.01, 0.01];
+/// # let loads = DMatrix::from_fn(120, 6, |i, j| if i % 6 == j { ((i / 6) as f64 - 9.5) * size[j] } else { 0.0 });
+/// # let signals = loads.map_with_location(|i, j, load| 0.1 * load / size[j] + 1e-3 * ((7 * i + 3 * j) as f64).sin());
+/// # let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt)?;
+/// use fingertip_calibration::model::{Limits, Options};
+/// use fingertip_calibration::report::{Mistake, Report};
+///
+/// let file = fingertip_calibration::calibrate(&table, &Options::default())?.to_file()?;
+/// // The plugs of the first and the fourth gauge are exchanged.
+/// let mut wrong = table.clone();
+/// wrong.signals.swap_columns(0, 3);
+/// let report = Report::of_check(&file, &wrong, &Limits::default(), None)?;
+/// let mistakes: Vec<&Mistake> = report.suspicions.iter().map(|suspicion| &suspicion.mistake).collect();
+/// assert!(mistakes.contains(&&Mistake::Gauges { first: 1, second: 4 }));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub enum Mistake {
@@ -83,9 +124,11 @@ impl fmt::Display for Suspicion {
             }
             Mistake::Unit { axes, factor, confusion } => {
                 let names: Vec<String> = axes.iter().map(ToString::to_string).collect();
+                let (way, factor) =
+                    if *factor < 1.0 { ("small", factor.recip()) } else { ("large", *factor) };
                 write!(
                     formatter,
-                    "{} too large by a factor of {factor:.6}: {confusion} seem to be confused",
+                    "{} too {way} by a factor of {factor:.6}: {confusion} seem to be confused",
                     names.join(", ")
                 )?;
             }

@@ -25,6 +25,16 @@ pub use pages::pdf;
 pub use table::tables;
 
 /// How a line is drawn.
+///
+/// ```
+/// use fingertip_calibration::sheet::{Pen, Sheet};
+///
+/// let mut sheet = Sheet::a4("A hidden edge");
+/// sheet.line(Pen::Thick, [10.0, 10.0], [60.0, 10.0]);
+/// assert!(!sheet.to_svg().contains("stroke-dasharray"));
+/// sheet.line(Pen::Dashed, [10.0, 20.0], [60.0, 20.0]);
+/// assert!(sheet.to_svg().contains("stroke-dasharray"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pen {
     /// Outlines.
@@ -54,6 +64,15 @@ impl Pen {
 }
 
 /// Where a text is attached.
+///
+/// ```
+/// use fingertip_calibration::sheet::{Anchor, Sheet};
+///
+/// // A heading in the middle of a sheet that is 210 mm wide.
+/// let mut sheet = Sheet::a4("A drawing");
+/// sheet.text([105.0, 20.0], 5.0, Anchor::Middle, "Tube of 6.55 mm");
+/// assert!(sheet.to_svg().contains(r#"text-anchor="middle""#));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     /// It begins at its place.
@@ -72,6 +91,17 @@ enum Mark {
 }
 
 /// A sheet of paper with what is drawn on it.
+///
+/// ```
+/// use fingertip_calibration::sheet::{Pen, Sheet, pdf};
+///
+/// // A strip of 250 mm needs an A4 sheet that lies; places are millimetres from the upper left corner.
+/// let mut sheet = Sheet::holding("A strip", [250.0, 60.0]);
+/// assert_eq!(sheet.size(), [297.0, 210.0]);
+/// sheet.polygon(Pen::Thick, "strip", [[20.0, 20.0], [270.0, 20.0], [270.0, 80.0], [20.0, 80.0]]);
+/// assert!(sheet.to_svg().contains(r#"id="strip""#));
+/// assert!(pdf(&[sheet]).starts_with(b"%PDF"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
     title: String,

@@ -3,6 +3,15 @@
 use fingertip_scene::Tells;
 
 /// A column, or several of one meaning, of `contacts.csv`.
+///
+/// ```
+/// use fingertip_cli::contact_columns::CONTACT_COLUMNS;
+///
+/// let of = |name: &str| CONTACT_COLUMNS.iter().find(|columns| columns.names.contains(&name));
+/// // The torque about the normal is told of a soft finger only, the contact point of any.
+/// assert_eq!(of("spin_Nm").map(|columns| columns.of), Some("soft finger"));
+/// assert_eq!(of("x_m").map(|columns| (columns.of, columns.says)), Some(("", "contact point")));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Columns {
     /// The section of a scene, or its key, that asks for them; empty for those of every scene.

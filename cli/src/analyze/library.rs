@@ -20,6 +20,16 @@ use crate::report::{self, used::Given};
 use crate::span::Span;
 
 /// Why a recording could not be read or analysed, in the sentence that the command says.
+///
+/// ```
+/// use fingertip_cli::library::{Failure, Recorded};
+/// use fingertip_recordings::ReaderOptions;
+///
+/// let recorded = Recorded { path: "nowhere.csv".into(), ..Recorded::default() };
+/// let failure: Option<Failure> = recorded.rows(ReaderOptions::default(), &mut Vec::new()).err();
+/// // It says which file.
+/// assert!(failure.is_some_and(|failure| failure.to_string().contains("nowhere.csv")));
+/// ```
 #[derive(Debug)]
 pub struct Failure(CliError);
 
@@ -42,6 +52,21 @@ impl From<CliError> for Failure {
 }
 
 /// Which recording, and what of it.
+///
+/// ```
+/// use fingertip_cli::library::Recorded;
+/// use fingertip_recordings::ReaderOptions;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("push.csv");
+/// std::fs::write(&path, "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,0,0,-1,0,0,0\n0.001,0,0,-2,0,0,0\n")?;
+/// let mut notes = Vec::new();
+/// let mut rows = Recorded { path, ..Recorded::default() }.rows(ReaderOptions::default(), &mut notes)?;
+/// let sensor = rows.layout().only_wrench()?.clone();
+/// let wrench = rows.next_row()?.and_then(|row| row.wrench(&sensor)).ok_or("no wrench")?;
+/// assert_eq!(wrench.force().z, -1.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Recorded {
     /// CSV with units in the names of its columns, or MCAP.
@@ -91,6 +116,38 @@ impl Recorded {
 }
 
 /// What one row of a recording gives.
+///
+/// ```
+/// use fingertip_cli::library::{Recorded, Sample, analyze};
+/// # use fingertip_scene::Scene;
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("push.csv");
+/// # std::fs::write(&path, "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,0,0,-1,0,0,0\n0.001,0,0,1,0,0,0\n")?;
+/// # let scene = Scene::from_text(r#"
+/// #     version = 2
+/// #     [input]
+/// #     convention = "on_fingertip"
+/// #     [surface]
+/// #     shape = "plane"
+/// #     normal = [0.0, 0.0, 1.0]
+/// #     point_m = [0.0, 0.0, 0.01]
+/// # "#)?;
+///
+/// // A plane of which the outward normal is +z, pushed with −1 N and then pulled with 1 N along z.
+/// let recorded = Recorded { path, ..Recorded::default() };
+/// let (mut words, mut height) = (Vec::new(), f64::NAN);
+/// analyze(&scene, "pad.toml".as_ref(), &recorded, &mut |_, sample| {
+///     words.push(sample.status());
+///     if let Sample::Felt(felt) = sample
+///         && let Some(contact) = felt.contact()
+///     {
+///         height = contact.point.z;
+///     }
+/// })?;
+/// assert_eq!(words, ["contact", "only_pulling"]);
+/// assert!((height - 0.01).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Sample<'a> {
     /// What its wrench says.
@@ -111,6 +168,30 @@ impl Sample<'_> {
 }
 
 /// What a recording showed.
+///
+/// ```
+/// use fingertip_cli::library::{Recorded, analyze};
+/// # use fingertip_scene::Scene;
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("push.csv");
+/// # std::fs::write(&path, "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,0,0,-1,0,0,0\n0.001,0,0,,0,0,0\n")?;
+/// # let scene = Scene::from_text(r#"
+/// #     version = 2
+/// #     [input]
+/// #     convention = "on_fingertip"
+/// #     [surface]
+/// #     shape = "plane"
+/// #     normal = [0.0, 0.0, 1.0]
+/// #     point_m = [0.0, 0.0, 0.01]
+/// # "#)?;
+///
+/// // Two rows; of the second a cell is empty.
+/// let recorded = Recorded { path, ..Recorded::default() };
+/// let analysis = analyze(&scene, "pad.toml".as_ref(), &recorded, &mut |_, _| {})?;
+/// assert_eq!((analysis.quality.rows, analysis.quality.empty_cells.count()), (2, 1));
+/// assert!(analysis.summary.contains("contact") && analysis.html.starts_with("<!doctype html>"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// Name of the sensor; empty if the recording gives none.

@@ -10,6 +10,24 @@ use crate::output::Overwrite;
 use crate::span::Span;
 
 /// What a recording shows of its sensor.
+///
+/// ```
+/// use fingertip_cli::library::{Recorded, health};
+/// use std::fmt::Write as _;
+///
+/// // Two seconds at 1 kHz: one force flickers by 0.01 N, the others never move.
+/// let mut text = String::from("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n");
+/// for i in 0..2000 {
+///     writeln!(text, "{},{},0,-1,0,0,0", f64::from(i) * 1e-3, f64::from(i * 7919 % 101 - 50) * 2e-4)?;
+/// }
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("rest.csv");
+/// std::fs::write(&path, text)?;
+/// let of = health(&Recorded { path, ..Recorded::default() }, None, None)?;
+/// assert_eq!((of.health.samples, of.health.channels.len()), (2000, 6));
+/// assert!(!of.health.findings.is_empty() && of.summary.contains("fz"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct HealthOf {
     /// Everything that was found, and the figures behind it.

@@ -25,6 +25,21 @@ use fingertip_surfaces::ForceParts;
 use fingertip_wrench::Real;
 
 /// Wrenches on the fingertip: one slice per component, x, y and z.
+///
+/// ```
+/// use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
+/// use fingertip_surfaces::Sphere;
+///
+/// // Two forces through the centre of a sphere of 10 mm \[N\]: one down, one to the left.
+/// let wrenches =
+///     Wrenches { force: [&[0.0, -1.0], &[0.0, 0.0], &[-1.0, 0.0]], torque: [&[0.0; 2], &[0.0; 2], &[0.0; 2]] };
+/// let mut answers = [[0.0_f64; 2]; 7];
+/// let [x, y, z, nx, ny, nz, gap] = answers.each_mut().map(|column| &mut column[..]);
+/// Sphere::centred(0.01)?.contacts(wrenches, Contacts { point: [x, y, z], normal: [nx, ny, nz], gap });
+/// let [x, _, z, ..] = answers;
+/// assert!((z[0] - 0.01).abs() < 1e-15 && (x[1] - 0.01).abs() < 1e-15);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Wrenches<'a, T> {
     /// Force \[N\].
@@ -34,6 +49,22 @@ pub struct Wrenches<'a, T> {
 }
 
 /// Where the contacts are written: one slice per component.
+///
+/// ```
+/// use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
+/// use fingertip_surfaces::Sphere;
+///
+/// // 1 N down, along a line that passes the axis of a sphere of 10 mm at 12 mm.
+/// let wrenches = Wrenches { force: [&[0.0], &[0.0], &[-1.0]], torque: [&[0.0], &[0.012], &[0.0]] };
+/// let ([mut x, mut y, mut z], [mut nx, mut ny, mut nz], mut gap) = ([[0.0_f64]; 3], [[0.0]; 3], [0.0]);
+/// Sphere::centred(0.01)?.contacts(
+///     wrenches,
+///     Contacts { point: [&mut x, &mut y, &mut z], normal: [&mut nx, &mut ny, &mut nz], gap: &mut gap },
+/// );
+/// // It misses by 2 mm, and the closest point is at the side.
+/// assert!((gap[0] - 2e-3).abs() < 1e-12 && (x[0] - 0.01).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Debug)]
 pub struct Contacts<'a, T> {
     /// Point of entry, or for a line that misses the closest point of the surface \[m\].
@@ -47,6 +78,20 @@ pub struct Contacts<'a, T> {
 }
 
 /// Which lines a loop has to expect.
+///
+/// ```
+/// use fingertip_contact::batch::{BatchSurface, Lines};
+/// use fingertip_surfaces::Sphere;
+///
+/// // 1 N down at x = 12 mm misses a sphere of 10 mm.
+/// let sphere = Sphere::centred(0.01_f64)?;
+/// let (newtons, newton_metres) = ([0.0, 0.0, -1.0], [0.0, 0.012, 0.0]);
+/// assert!(!sphere.enter(newtons, newton_metres, Lines::Meeting, false).certain);
+/// // Whoever expects such lines is told how far it misses.
+/// let missed = sphere.enter(newtons, newton_metres, Lines::Any, false);
+/// assert!(missed.certain && (missed.gap - 2e-3).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lines {
     /// Those that meet the surface; of others, only that they may not.
@@ -56,6 +101,18 @@ pub enum Lines {
 }
 
 /// Where the line of a force enters a surface.
+///
+/// ```
+/// use fingertip_contact::batch::{BatchSurface, Entered, Lines};
+/// use fingertip_surfaces::Sphere;
+///
+/// // 1 N down and 0.3 N aside, at the top of a sphere of 10 mm.
+/// let (newtons, newton_metres) = ([0.3, 0.0, -1.0], [0.0, 3e-3, 0.0]);
+/// let entered: Entered<f64> = Sphere::centred(0.01)?.enter(newtons, newton_metres, Lines::Meeting, false);
+/// assert!(entered.certain && (entered.point[2] - 0.01).abs() < 1e-12);
+/// assert!((entered.parts.normal - 1.0).abs() < 1e-12 && (entered.parts.tangential - 0.3).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entered<T: Real> {
     /// Point of entry, or for a line that misses the closest point of the surface \[m\].
@@ -81,6 +138,31 @@ pub struct Entered<T: Real> {
 /// Batches are fastest where all lines meet the surface, and where the columns do not begin at the same
 /// place of a memory page: thirteen columns of a multiple of 4 KiB, one after another, compete for the
 /// same lines of the cache and take up to three times as long. A few numbers of padding help.
+///
+/// ```
+/// use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
+/// use fingertip_contact::{ContactModel, PointContact};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let sphere = Sphere::centred(0.01)?;
+/// // A thousand forces of 2 N, to all sides of a sphere of 10 mm.
+/// let turns: Vec<f64> = (0..1000).map(|i| f64::from(i) * 0.1).collect();
+/// let (fx, fz): (Vec<f64>, Vec<f64>) = turns.iter().map(|turn| (2.0 * turn.cos(), 2.0 * turn.sin())).unzip();
+/// let zero = [0.0; 1000];
+/// let mut answers = [[0.0; 1000]; 7];
+/// let [x, y, z, nx, ny, nz, gap] = answers.each_mut().map(|column| &mut column[..]);
+/// sphere.contacts(
+///     Wrenches { force: [&fx, &zero, &fz], torque: [&zero; 3].map(|column| &column[..]) },
+///     Contacts { point: [x, y, z], normal: [nx, ny, nz], gap },
+/// );
+/// // Each is what a point contact makes of it.
+/// let wrench = Wrench::on_fingertip(Vector3::new(fx[7], 0.0, fz[7]), Vector3::zeros());
+/// let one = PointContact::new(0.0)?.resolve(&wrench, &sphere).into_result()?;
+/// assert!((one.point.x - answers[0][7]).abs() < 1e-15 && (one.point.z - answers[2][7]).abs() < 1e-15);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub trait BatchSurface<T: Real> {
     /// Resolves all wrenches, with the widest vectors of the processor at hand if the feature `simd` is
     /// on. Wider vectors do the same operations on more wrenches at once: nothing is fused or reordered.

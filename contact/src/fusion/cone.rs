@@ -8,6 +8,29 @@ use nalgebra::{Matrix4, Vector3, Vector4, Vector5};
 use super::prior::{Prior, State};
 
 /// Where in its friction cone a force lies.
+///
+/// ```
+/// use fingertip_contact::{ArrayContact, Fusion, Grip};
+/// use fingertip_surfaces::Plane;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix3, Matrix6, Vector3};
+///
+/// let pad = Plane::new(Vector3::zeros(), Vector3::z())?;
+/// let reading = ArrayContact {
+///     centroid: Vector3::zeros(),
+///     centroid_covariance: Matrix3::identity() * 1e-8,
+///     normal_force: 1.0,
+///     normal_deviation: 0.1,
+/// };
+/// let sensor = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let fusion = Fusion::new(sensor, 0.5)?;
+/// // Friction of 0.5 holds 0.2 N aside under 1 N; 0.8 N it does not.
+/// for (newtons_aside, grip) in [(0.2, Grip::Sticks), (0.8, Grip::Slides)] {
+///     let wrench = Wrench::on_fingertip(Vector3::new(newtons_aside, 0.0, -1.0), Vector3::zeros());
+///     assert_eq!(fusion.estimate(&pad, &wrench, &[reading])?.contacts[0].grip, grip);
+/// }
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[repr(u8)]

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Matrix4, Matrix5, Matrix6, Matrix6x5, Vector2, Vector3, 
 
 use super::ArrayContact;
 use super::cone::{Grip, Held, Wall, cone_multipliers, project};
+use super::fused::{Fused, FusedContact};
 use super::prior::{Prior, State};
 use crate::uncertainty::is_covariance;
 
@@ -33,53 +34,33 @@ use crate::uncertainty::is_covariance;
 /// **What cannot be told**: forces that cancel within the grip of one fingertip ([`Fused::internal_forces`]
 /// of them). The wrench says nothing of these; what is reported there comes from the array and from
 /// friction alone, and [`FusedContact::share_from_wrench`] says how much of a force is.
+///
+/// ```
+/// use fingertip_contact::{ArrayContact, Fusion};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix3, Matrix6, Vector3};
+///
+/// // A ball of 10 mm between two fingers: the array feels 2 N ± 0.2 N on either side.
+/// let reading = |x: f64| ArrayContact {
+///     centroid: Vector3::new(x, 0.0, 0.0),
+///     centroid_covariance: Matrix3::identity() * 1e-8,
+///     normal_force: 2.0,
+///     normal_deviation: 0.2,
+/// };
+/// // The wrench, known to 10 mN and 0.1 N·mm, says that together they carry 1 N.
+/// let noise = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let readings = [reading(0.01), reading(-0.01)];
+/// let [right, left] = Fusion::new(noise, 0.5)?.estimate(&Sphere::centred(0.01)?, &wrench, &readings)?.contacts;
+/// assert!((right.force - Vector3::new(-2.0, 0.0, -0.5)).norm() < 1e-2);
+/// assert!((left.force - Vector3::new(2.0, 0.0, -0.5)).norm() < 1e-2);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fusion<T: Real> {
     wrench_covariance: Matrix6<T>,
     friction: T,
-}
-
-/// One contact of the estimate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-)]
-pub struct FusedContact<T: Real> {
-    /// Where \[m\], on the surface.
-    pub point: Vector3<T>,
-    /// Outward unit normal there.
-    pub normal: Vector3<T>,
-    /// Force on the fingertip \[N\].
-    pub force: Vector3<T>,
-    /// Covariance of the point \[m²\], of rank 2, to first order.
-    pub point_covariance: Matrix3<T>,
-    /// Covariance of the force \[N²\] before the cone cuts anything off: where
-    /// [`grip`](Self::grip) is not [`Grip::Sticks`] the force is known better than that.
-    pub force_covariance: Matrix3<T>,
-    /// How much of the variance of the force the wrench removed: 1, nearly all is known from the
-    /// wrench; 0, nothing.
-    pub share_from_wrench: T,
-    /// Where in its friction cone the force lies.
-    pub grip: Grip,
-}
-
-/// The estimate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fused<T: Real, const K: usize> {
-    /// In the order of the readings.
-    pub contacts: [FusedContact<T>; K],
-    /// `yᵀS⁻¹y` for the difference between the wrench and what the array alone predicts, linearised
-    /// at the estimate: follows χ² with six degrees of freedom if the readings are right. Much more,
-    /// and a contact is missing.
-    pub disagreement: T,
-    /// Dimension of the forces that the wrench cannot see: 0, 1, 3, 6 for one to four contacts, one
-    /// more for three or four of them in a line.
-    pub internal_forces: u8,
-    /// `false` if the iteration ended at its bound, or where the readings contradict the wrench by so
-    /// much that it found no rest: see [`disagreement`](Self::disagreement).
-    pub settled: bool,
 }
 
 impl<T: Real> Fusion<T> {

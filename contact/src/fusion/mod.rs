@@ -2,8 +2,10 @@
 
 mod cone;
 mod estimate;
+mod fused;
 mod prior;
 
 pub use cone::Grip;
-pub use estimate::{Fused, FusedContact, Fusion};
+pub use estimate::Fusion;
+pub use fused::{Fused, FusedContact};
 pub use prior::ArrayContact;

@@ -7,6 +7,28 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix2, Matrix3, Matrix5, Matrix6x5, Vector2, Vector3, Vector5};
 
 /// One contact as a tactile array in the skin reports it (extrinsic tactile sensing).
+///
+/// ```
+/// use fingertip_contact::{ArrayContact, Fusion};
+/// use fingertip_surfaces::Plane;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix3, Matrix6, Vector3};
+///
+/// // A taxel array of 1 mm feels 1.2 N, 4 mm from the middle of the pad.
+/// let reading = ArrayContact {
+///     centroid: Vector3::new(0.004, 0.0, 0.0),
+///     centroid_covariance: Matrix3::identity() * 1e-6,
+///     normal_force: 1.2,
+///     normal_deviation: 0.1,
+/// };
+/// // The wrench puts the force at 3.8 mm, and is surer: 10 mN, 0.1 N·mm.
+/// let wrench = Wrench::from_force_at(&Vector3::new(0.0038, 0.0, 0.0), Vector3::new(0.0, 0.0, -1.2));
+/// let noise = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let pad = Plane::new(Vector3::zeros(), Vector3::z())?;
+/// let fused = Fusion::new(noise, 0.5)?.estimate(&pad, &wrench, &[reading])?;
+/// assert!((fused.contacts[0].point.x - 0.0038_f64).abs() < 2e-5);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArrayContact<T: Real> {
     /// Centroid of the pressure \[m\].

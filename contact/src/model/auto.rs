@@ -9,6 +9,24 @@ use crate::uncertainty::is_covariance;
 use crate::{ContactModel, NoContact, PointContact, Resolution, SoftFinger, SoftFingerSurface};
 
 /// Which model the pitch of a wrench asks for.
+///
+/// ```
+/// use fingertip_contact::{Auto, Choice, PointContact, SoftFinger};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix6, Vector3};
+///
+/// // 10 mN and 0.1 N·mm of noise; friction times torque arm is 1 mm.
+/// let noise = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let auto = Auto::new(PointContact::new(0.05)?, SoftFinger::new(0.05)?, noise)?.with_greatest_pitch(1e-3, 3.0)?;
+/// let of = |newton_metres: f64| {
+///     let wrench = Wrench::on_fingertip(-Vector3::z(), Vector3::new(0.0, 0.0, newton_metres));
+///     auto.test(&wrench).map(|test| test.choice)
+/// };
+/// assert_eq!(of(5e-5), Some(Choice::PointContact));
+/// assert_eq!(of(8e-4), Some(Choice::SoftFinger));
+/// assert_eq!(of(5e-3), Some(Choice::NotOneContact));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// The pitch is within the noise: no spin torque can be told from none.
@@ -20,6 +38,22 @@ pub enum Choice {
 }
 
 /// The pitch test of a wrench, and what follows from it.
+///
+/// ```
+/// use fingertip_contact::{Auto, PitchTest, PointContact, SoftFinger};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix6, Vector3};
+///
+/// // The torque has 0.1 N·mm of noise, the force next to none.
+/// let noise = Matrix6::from_diagonal(&[1e-12, 1e-12, 1e-12, 1e-8, 1e-8, 1e-8].into());
+/// let auto = Auto::new(PointContact::new(0.05)?, SoftFinger::new(0.05)?, noise)?;
+/// // 0.5 N·mm along 2 N: a pitch of 0.25 mm, known to 0.05 mm; five deviations, of which T is the square.
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, 2.0), Vector3::new(0.0, 0.0, 5e-4));
+/// let test: PitchTest<f64> = auto.test(&wrench).ok_or("no force")?;
+/// assert!((test.pitch - 0.25e-3).abs() < 1e-9 && (test.deviation - 0.05e-3).abs() < 1e-9);
+/// assert!((test.statistic - 25.0).abs() < 1e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PitchTest<T: Real> {
     /// Pitch `f·m/|f|²` \[m\].
@@ -48,6 +82,22 @@ pub struct PitchTest<T: Real> {
 ///
 /// What the test cannot tell: parallel forces at several places have no pitch either, and look
 /// like one contact between them (`docs/theory/contact.md#what-six-numbers-cannot-tell`).
+///
+/// ```
+/// use fingertip_contact::{Auto, ContactModel, PointContact, SoftFinger};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix6, Vector3};
+///
+/// // 10 mN and 0.1 N·mm of noise.
+/// let noise = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let auto = Auto::new(PointContact::new(0.05)?, SoftFinger::new(0.05)?, noise)?;
+/// // 2 N at the top of a sphere of 10 mm, with a spin torque of 3 N·mm, which noise does not explain.
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::new(0.0, 0.0, 3e-3));
+/// let contact = auto.resolve(&wrench, &Sphere::centred(0.01)?).into_result()?;
+/// assert!((contact.spin_torque - 3e-3_f64).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Auto<T: Real> {
     point: PointContact<T>,

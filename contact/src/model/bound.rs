@@ -9,6 +9,21 @@ use super::Contact;
 use crate::ConvexBound;
 
 /// What is known about the errors behind a contact: the greatest they can be.
+///
+/// ```
+/// use fingertip_contact::{ContactBound, WorstErrors};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let (sphere, wrench) = (Sphere::centred(0.013)?, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros()));
+/// // 10 mN and 0.1 N·mm at most; and a sphere that was measured to 0.05 mm.
+/// let of_sensor = WorstErrors::of_wrench(0.01, 1e-4);
+/// let of_all = WorstErrors { radius: 5e-5, ..of_sensor };
+/// let bound = |errors| ContactBound::on_sphere(&sphere, &wrench, &errors).ok_or("no bound");
+/// assert!(bound(of_all)?.distance > bound(of_sensor)?.distance);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WorstErrors<T: Real> {
@@ -32,6 +47,24 @@ impl<T: Real> WorstErrors<T> {
 }
 
 /// How far the true contact can be from the computed one.
+///
+/// ```
+/// use fingertip_contact::{ContactBound, WorstErrors};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let (sphere, errors) = (Sphere::centred(0.01)?, WorstErrors::of_wrench(0.01, 1e-4));
+/// // 1 N through the centre: to first order (0.1 N·mm + 10 mm · 10 mN)/1 N.
+/// let straight = Wrench::on_fingertip(-Vector3::z(), Vector3::zeros());
+/// let bound = ContactBound::on_sphere(&sphere, &straight, &errors).ok_or("no bound")?;
+/// assert!(!bound.grazing && (bound.distance - 0.2e-3_f64).abs() < 0.02e-3);
+/// // 9.95 mm from the centre the line may miss.
+/// let at_the_side = Wrench::on_fingertip(-Vector3::z(), Vector3::new(0.0, 9.95e-3, 0.0));
+/// let bound = ContactBound::on_sphere(&sphere, &at_the_side, &errors).ok_or("no bound")?;
+/// assert!(bound.grazing && bound.distance > 1e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactBound<T: Real> {
     /// No point of contact that agrees with the measurement is farther away than this \[m\].

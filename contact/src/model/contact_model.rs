@@ -6,6 +6,25 @@ use nalgebra::Vector3;
 use crate::{Contact, Resolution};
 
 /// An assumption about what the contact can transmit, and how to find the contact under it.
+///
+/// ```
+/// use fingertip_contact::{ContactModel, PointContact, SoftFinger};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// /// Which height a force is felt at \[m\], by whatever model.
+/// fn height(model: &impl ContactModel<f64, Sphere<f64>>, sphere: &Sphere<f64>) -> Option<f64> {
+///     let wrench = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.01), Vector3::new(0.1, 0.0, -1.0));
+///     model.resolve(&wrench, sphere).contact().map(|contact| contact.point.z)
+/// }
+///
+/// let sphere = Sphere::centred(0.01)?;
+/// let point = height(&PointContact::new(0.05)?, &sphere).ok_or("no contact")?;
+/// let soft = height(&SoftFinger::new(0.05)?, &sphere).ok_or("no contact")?;
+/// assert!((point - 0.01).abs() < 1e-12 && (soft - 0.01).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` finds no contact of `{T}` on `{S}`",
     note = "a point contact takes any `ActiveSurface`, a soft finger any `SoftFingerSurface`; both must be of one scalar"

@@ -8,6 +8,22 @@ use nalgebra::Vector3;
 use thiserror::Error;
 
 /// One contact of the fingertip, in the sensor frame.
+///
+/// ```
+/// use fingertip_contact::{Contact, ContactModel, PointContact};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 1 N down and 0.3 N aside, at the top of a sphere of 10 mm.
+/// let top = Vector3::new(0.0, 0.0, 0.01);
+/// let wrench = Wrench::from_force_at(&top, Vector3::new(0.3, 0.0, -1.0));
+/// let contact: Contact<f64> = PointContact::new(0.05)?.resolve(&wrench, &Sphere::centred(0.01)?).into_result()?;
+/// assert!((contact.point - top).norm() < 1e-12 && (contact.normal_force() - 1.0).abs() < 1e-12);
+/// assert!((contact.tangential_force() - Vector3::x() * 0.3).norm() < 1e-12);
+/// assert!((contact.incidence() - 1.0 / 1.09_f64.sqrt()).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -71,6 +87,26 @@ impl<T: Real> Contact<T> {
 }
 
 /// Why a wrench gives no contact.
+///
+/// ```
+/// use fingertip_contact::{ContactModel, NoContact, PointContact};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let (model, sphere) = (PointContact::new(0.05)?, Sphere::centred(0.01_f64)?);
+/// // 1 N along a line that passes the centre of a sphere of 10 mm at 12 mm.
+/// let aside = Wrench::on_fingertip(-Vector3::z(), Vector3::new(0.0, 0.012, 0.0));
+/// match model.resolve(&aside, &sphere).into_result() {
+///     Err(NoContact::Misses { closest: Some(closest) }) => assert!((closest.gap - 2e-3).abs() < 1e-9),
+///     other => panic!("{other:?}"),
+/// }
+/// // 20 mN are noise.
+/// let light = Wrench::on_fingertip(Vector3::z() * -0.02, Vector3::zeros());
+/// let reason = model.resolve(&light, &sphere).into_result();
+/// assert!(matches!(reason, Err(NoContact::BelowThreshold { force }) if (force - 0.02).abs() < 1e-12));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -186,6 +222,21 @@ fn by_how_much<T: Real>(closest: &Option<ClosestApproach<T>>) -> impl fmt::Displ
 }
 
 /// Contact, or the reason why there is none.
+///
+/// ```
+/// use fingertip_contact::{ContactModel, PointContact, Resolution};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let text = match PointContact::new(0.05)?.resolve(&wrench, &Sphere::centred(0.01)?) {
+///     Resolution::Contact(contact) => format!("{:.1} mm above the centre", contact.point.z * 1e3),
+///     Resolution::NoContact(reason) => reason.to_string(),
+/// };
+/// assert_eq!(text, "10.0 mm above the centre");
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

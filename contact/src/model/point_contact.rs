@@ -24,6 +24,24 @@ use super::{Contact, ContactModel, NoContact, Resolution};
 /// nearest to the last contact is taken if that is given, otherwise the one where the force presses
 /// most squarely, which asks least of friction. [`Contact::alternatives`] counts the others, and
 /// [`candidates`](Self::candidates) reports them all.
+///
+/// ```
+/// use fingertip_contact::{ContactModel, NoContact, PointContact};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // Forces of 50 mN and more count, and none needs more friction than 1.5.
+/// let model = PointContact::new(0.05)?.with_greatest_friction(1.5)?;
+/// let (sphere, place) = (Sphere::centred(0.01)?, Vector3::new(0.006, 0.0, 0.008));
+/// let push = Wrench::from_force_at(&place, Vector3::new(-0.5, 0.2, -0.8));
+/// let contact = model.resolve(&push, &sphere).into_result()?;
+/// assert!((contact.point - place).norm() < 1e-12);
+/// // 2 N aside under 1 N.
+/// let scrape = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.01), Vector3::new(2.0, 0.0, -1.0));
+/// assert!(matches!(model.resolve(&scrape, &sphere).into_result(), Err(NoContact::BeyondFriction { .. })));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointContact<T: Real> {
     least_force: T,

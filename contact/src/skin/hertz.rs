@@ -40,6 +40,19 @@ pub fn contact_modulus<T: Real>(young: [T; 2], poisson: [T; 2]) -> Result<T, Bad
 ///
 /// in Carlson's integrals, which do not cancel as the patch becomes round, as Legendre's do. The
 /// constructor solves for `k`; a sample takes two roots.
+///
+/// ```
+/// use fingertip_contact::{Hertz, contact_modulus};
+///
+/// // A rubber ball of 10 mm (0.75 MPa, ν = ½, so that E* = 1 MPa) on steel, under 1 N.
+/// let skin = Hertz::sphere(0.01, contact_modulus([0.75e6, 210e9], [0.5, 0.3])?)?;
+/// let indentation = skin.indentation(1.0);
+/// // a³ = 3FR/(4E*), δ = a²/R: a patch of 2 mm, 0.38 mm deep.
+/// let radius = (3.0 * 0.01 / 4e6_f64).cbrt();
+/// assert!((indentation.patch[0] / radius - 1.0).abs() < 1e-3);
+/// assert!((indentation.depth / (radius * radius / 0.01) - 1.0).abs() < 1e-3);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hertz<T: Real> {

@@ -7,6 +7,17 @@ use super::{Hertz, LinearStiffness, PowerLaw, Tabulated};
 use crate::Contact;
 
 /// How a skin gives way to a normal force.
+///
+/// ```
+/// use fingertip_contact::{Hertz, Indentation};
+///
+/// // A barrel with radii of 20 mm and 5 mm and a contact modulus of 1 MPa, pressed on a flat with 2 N.
+/// let found: Indentation<f64> = Hertz::new([0.02, 0.005], 1e6)?.indentation(2.0);
+/// // The patch is longer along the barrel, and the skin gives way by half a millimetre or so.
+/// assert!(found.patch[0] > 2.0 * found.patch[1]);
+/// assert!(found.depth > 0.4e-3 && found.depth < 0.8e-3);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Indentation<T: Real> {
     /// How far the skin and what presses on it approach each other \[m\].
@@ -23,6 +34,22 @@ fn slope<T: Real>(at: T, of: impl Fn(T) -> T) -> T {
 }
 
 /// How the depth of an indentation changes.
+///
+/// ```
+/// use fingertip_contact::{Compliant, IndentationSlope, PointContact, PowerLaw};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 0.4 mm deep at 1 N, as the 2/3 power of the force: the slope is 2/3 of depth over force.
+/// let law = PowerLaw::new([2e-3, 1.0 / 3.0], [4e-4, 2.0 / 3.0])?;
+/// let (model, sphere) = (Compliant::new(PointContact::new(0.05)?, law), Sphere::centred(0.01)?);
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let found = model.resolve_indented(&push, &sphere, None)?;
+/// let slope: IndentationSlope<f64> = model.slope(&found, &sphere);
+/// assert!((slope.by_force - 2.0 / 3.0 * 4e-4).abs() < 1e-9 && slope.along == Vector3::zeros());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IndentationSlope<T: Real> {
     /// With the normal force \[m/N\].
@@ -37,6 +64,30 @@ pub struct IndentationSlope<T: Real> {
 /// # For implementers
 /// Depth and patch shall be finite, not negative and not falling with the force, and the depth
 /// zero at a force of zero. The force given is finite and not negative.
+///
+/// ```
+/// use fingertip_contact::{Compliant, Contact, Indentation, PointContact, SkinLaw};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// /// Foam that gives way by 0.5 mm/N at the tip and half as much below it.
+/// struct Foam;
+///
+/// impl<S> SkinLaw<f64, S> for Foam {
+///     fn indentation_at(&self, _: &S, contact: &Contact<f64>, newtons: f64) -> Indentation<f64> {
+///         let softness = if contact.normal.z > 0.5 { 5e-4 } else { 2.5e-4 };
+///         Indentation { depth: softness * newtons, patch: [2e-3; 2] }
+///     }
+/// }
+///
+/// let skin = Compliant::new(PointContact::new(0.05)?, Foam);
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+/// let found = skin.resolve_indented(&push, &Sphere::centred(0.01)?, None)?;
+/// // 1 mm deep under 2 N.
+/// assert!((found.contact.point.z - 0.009).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub trait SkinLaw<T: Real, S> {
     /// The indentation under a contact on the undeformed surface that presses with a normal force
     /// \[N\].

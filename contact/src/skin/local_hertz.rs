@@ -14,6 +14,22 @@ use crate::Contact;
 ///
 /// Where the fingertip is flat or hollow against the object, Hertz's theory gives no patch; the
 /// curvature is then taken as `1/largest radius`.
+///
+/// ```
+/// use fingertip_contact::{Compliant, Hertz, LocalHertz, PointContact};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // A contact modulus of 1 MPa against flat objects; radii are believed up to 0.1 m.
+/// let skin = Compliant::new(PointContact::new(0.05)?, LocalHertz::new(1e6_f64, 0.0, 0.1)?);
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let found = skin.resolve_indented(&push, &Sphere::centred(0.01)?, None)?;
+/// // On a sphere it is what Hertz says of that sphere.
+/// let expected = Hertz::sphere(0.01_f64, 1e6)?.indentation(1.0);
+/// assert!((found.indentation.depth - expected.depth).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LocalHertz<T: Real> {

@@ -19,6 +19,21 @@ use crate::{Contact, ContactModel, NoContact, PointContact, Resolution, SoftFing
 /// ellipsoid instead would put the contact somewhere else.
 ///
 /// Neglecting the skin puts the contact off by about `δ tan φ` along the surface.
+///
+/// ```
+/// use fingertip_contact::{Compliant, ContactModel, LinearStiffness, PointContact};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // A skin of 1 N/mm on a sphere of 10 mm; the object is as soft, and takes half.
+/// let law = LinearStiffness::new(1000.0, 0.01)?;
+/// let skin = Compliant::new(PointContact::new(0.05)?, law).with_share(0.5)?;
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let contact = skin.resolve(&push, &Sphere::centred(0.01)?).into_result()?;
+/// assert!((contact.point.z - 9.5e-3_f64).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Compliant<T, M, L> {
@@ -33,6 +48,22 @@ pub type CompliantPointContact<T, L> = Compliant<T, PointContact<T>, L>;
 pub type CompliantSoftFinger<T, L> = Compliant<T, SoftFinger<T>, L>;
 
 /// A contact through a skin.
+///
+/// ```
+/// use fingertip_contact::{Compliant, CompliantContact, LinearStiffness, PointContact};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 1 N on a skin of 1 N/mm.
+/// let skin = Compliant::new(PointContact::new(0.05)?, LinearStiffness::new(1000.0, 0.01)?);
+/// let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let found: CompliantContact<f64> = skin.resolve_indented(&push, &Sphere::centred(0.01)?, None)?;
+/// // It lies 1 mm below the sphere of 10 mm.
+/// assert!((found.undeformed.z - 0.01).abs() < 1e-9 && (found.contact.point.z - 9e-3).abs() < 1e-9);
+/// assert!((found.indentation.depth - 1e-3).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CompliantContact<T: Real> {
     /// The contact; its point lies on the deformed surface.

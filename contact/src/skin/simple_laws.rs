@@ -7,6 +7,16 @@ use super::Indentation;
 
 /// Depth in proportion to the force, `δ = N/k`, with a patch as a rigid flat cuts it out of a
 /// sphere, `a = √(2Rδ)`: a soft layer of springs (Winkler) in the small.
+///
+/// ```
+/// use fingertip_contact::LinearStiffness;
+///
+/// // 2 N/mm, on a fingertip of 8 mm: under 1 N half a millimetre, and a patch of √(2 · 8 mm · 0.5 mm).
+/// let indentation = LinearStiffness::new(2000.0_f64, 0.008)?.indentation(1.0);
+/// assert!((indentation.depth - 0.5e-3).abs() < 1e-12);
+/// assert!((indentation.patch[0] - 8e-6_f64.sqrt()).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinearStiffness<T: Real> {
@@ -49,6 +59,17 @@ impl<T: Real> LinearStiffness<T> {
 /// For a material whose stress grows as the power ν of strain, `γ_a = 1/(2 + ν)` and
 /// `γ_δ = 2γ_a`; γ_a lies between 0 (all the patch at once) and 1/3 (linearly elastic: Hertz).
 /// Xydas & Kao (1999) measured γ_a of soft fingers between 0.1 and 1/3.
+///
+/// ```
+/// use fingertip_contact::PowerLaw;
+///
+/// // At 1 N a patch of 2 mm and 0.4 mm deep; they grow as the 1/3 and the 2/3 power of the force.
+/// let law = PowerLaw::new([2e-3_f64, 1.0 / 3.0], [4e-4, 2.0 / 3.0])?;
+/// let under_8_newtons = law.indentation(8.0);
+/// assert!((under_8_newtons.patch[0] - 4e-3).abs() < 1e-12);
+/// assert!((under_8_newtons.depth - 1.6e-3).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PowerLaw<T: Real> {

@@ -10,6 +10,17 @@ use super::Indentation;
 /// Measured points of depth and patch radius over force, with straight lines between them, from
 /// zero to the first, and beyond the last with the slope before it. `P` holds the points: an array, a list or a
 /// slice.
+///
+/// ```
+/// use fingertip_contact::Tabulated;
+///
+/// // Measured: force \[N\], depth \[m\], radius of the patch \[m\].
+/// let law = Tabulated::new([[1.0, 2.0e-4, 1.0e-3], [2.0, 3.0e-4, 1.4e-3], [4.0, 4.0e-4, 1.8e-3]])?;
+/// assert!((law.indentation(1.5).depth - 2.5e-4_f64).abs() < 1e-12);
+/// // Beyond the last point it goes on as between the last two.
+/// assert!((law.indentation(6.0).depth - 5.0e-4).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tabulated<T: Real, P: AsRef<[[T; 3]]>> {
     /// Force \[N\], depth \[m\], patch radius \[m\].

@@ -35,6 +35,23 @@ use crate::model::flat;
 /// [`NoContact::BeyondFriction`](crate::NoContact::BeyondFriction) where friction holds no contact,
 /// [`NoContact::Unresolved`](crate::NoContact::Unresolved) where a search ended at its bound, or rounding of the wrench hides whether
 /// there is a contact, as of a needle under a large spin torque.
+///
+/// ```
+/// use fingertip_contact::{ContactModel, SoftFinger};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // Noise below 50 mN; a patch with a torque arm of 2 mm.
+/// let model = SoftFinger::new(0.05)?.with_torque_arm(2e-3)?;
+/// let (sphere, normal) = (Sphere::centred(0.01)?, Vector3::new(0.6, 0.0, 0.8));
+/// // 2 N on the side of a sphere of 10 mm, and 1.5 N·mm about the normal there.
+/// let push: Wrench<f64> = Wrench::from_force_at(&(normal * 0.01), Vector3::new(-1.2, 0.3, -1.6));
+/// let wrench = Wrench::on_fingertip(push.force(), push.torque() + normal * 1.5e-3);
+/// let contact = model.resolve(&wrench, &sphere).into_result()?;
+/// assert!((contact.point - normal * 0.01).norm() < 1e-9 && (contact.spin_torque - 1.5e-3_f64).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftFinger<T: Real> {
     pub(super) least_force: T,

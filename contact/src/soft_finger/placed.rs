@@ -9,6 +9,24 @@ use super::patch::{Digits, Seen, Three, Way, dot, exactly, plus_times, rounded};
 use super::three::unit;
 
 /// The surface near a point, to the last digit, wherever it is.
+///
+/// ```
+/// use fingertip_contact::{Patch, SoftFingerSurface};
+/// use fingertip_surfaces::{Capsule, LocalSurface, Posed};
+/// use fingertip_wrench::RigidTransform;
+/// use nalgebra::Vector3;
+///
+/// // A capsule of 8 mm radius and 20 mm between its centres: a ball at its tip, a cylinder at its side.
+/// let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?;
+/// let tip: Patch = capsule.patch(&Vector3::new(0.0, 0.0, 0.018)).ok_or("not known")?;
+/// let side = capsule.patch(&Vector3::new(0.008, 0.0, 0.0)).ok_or("not known")?;
+/// assert!(matches!(tip.surface, LocalSurface::Ball { .. }) && matches!(side.surface, LocalSurface::Cone { .. }));
+/// // 5 mm aside it is the same in its own frame.
+/// let moved = Posed::new(capsule, RigidTransform::translation(Vector3::new(0.005, 0.0, 0.0)));
+/// let of_moved = moved.patch(&Vector3::new(0.005, 0.0, 0.018)).ok_or("not known")?;
+/// assert!(of_moved.surface == tip.surface && tip.pose.is_none() && of_moved.pose.is_some());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     /// What the surface is, in the frame of its shape.

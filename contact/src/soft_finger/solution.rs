@@ -9,6 +9,23 @@ use crate::GeometrySensitivity;
 
 /// One solution of the soft-finger equations `m = c × f + τ n(c)` with `f·n ≤ 0` and `c` on the
 /// surface.
+///
+/// ```
+/// use fingertip_contact::{SoftContact, SoftFingerSurface};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 2 N at the top of a sphere of 10 mm, with 1.5 N·mm of spin.
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::new(0.0, 0.0, 1.5e-3));
+/// let mut all: Vec<SoftContact<f64>> = Vec::new();
+/// Sphere::centred(0.01)?.soft_contacts(&wrench, None, |contact| all.push(contact));
+/// let [contact] = all[..] else { panic!("{all:?}") };
+/// // It fulfils m = c × f + τ n.
+/// let torque = contact.point.cross(&wrench.force()) + contact.normal * contact.spin_torque;
+/// assert!(contact.active && (torque - wrench.torque()).norm() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoftContact<T: Real> {
     /// The contact centroid `c` \[m\].
@@ -22,6 +39,20 @@ pub struct SoftContact<T: Real> {
 }
 
 /// How a search for soft-finger contacts ended.
+///
+/// ```
+/// use fingertip_contact::{Search, SoftFingerSurface};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // On a sphere a closed form finds all contacts.
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::new(0.0, 0.0, 1.5e-3));
+/// let mut contacts = 0;
+/// let search = Sphere::centred(0.01)?.soft_contacts(&wrench, None, |_| contacts += 1);
+/// assert!(matches!(search, Search::<f64>::Complete) && contacts == 1);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Search<T: Real> {
@@ -51,6 +82,26 @@ pub enum Search<T: Real> {
 /// too. The wrench is finite, its force is not zero, and its largest component lies between the roots
 /// of the least and of the greatest number of the type. Solutions shall be accurate for spin
 /// torques down to zero.
+///
+/// ```
+/// use fingertip_contact::SoftFingerSurface;
+/// use fingertip_surfaces::{Ellipsoid, Sphere};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// /// How many contacts explain a wrench.
+/// fn contacts(surface: &impl SoftFingerSurface<f64>, wrench: &Wrench<f64>) -> usize {
+///     let mut count = 0;
+///     surface.soft_contacts(wrench, None, |_| count += 1);
+///     count
+/// }
+///
+/// // 2 N down, with a torque of 1 N·mm about the line of the force, on a sphere and on an ellipsoid.
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::new(0.0, 0.0, 1e-3));
+/// assert_eq!(contacts(&Sphere::centred(0.01)?, &wrench), 1);
+/// assert!(contacts(&Ellipsoid::new(Vector3::new(0.008, 0.009, 0.012))?, &wrench) >= 1);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
     /// Calls `visit` for every solution that presses. `last`, the contact point of the sample
     /// before, may be used as a start.

@@ -52,6 +52,21 @@ pub struct LineMeeting<T: Real> {
 }
 
 /// Where lines meet.
+///
+/// ```
+/// use fingertip_contact::{LineMeeting, Met, WrenchSpread};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // Two forces of 1 N that cross at right angles, 12 mm above the origin; 1 mN and 0.01 N·mm of noise.
+/// let (place, noise) = (Vector3::new(0.0, 0.0, 0.012), WrenchSpread::Isotropic { force: 1e-6, torque: 1e-10 });
+/// let mut meeting = LineMeeting::new();
+/// meeting.add(&Wrench::from_force_at(&place, Vector3::new(1.0, 0.0, -1.0) / 2.0_f64.sqrt()), noise);
+/// meeting.add(&Wrench::from_force_at(&place, Vector3::new(-1.0, 0.0, -1.0) / 2.0_f64.sqrt()), noise);
+/// let met: Met<f64> = meeting.find()?;
+/// assert!((met.point - place).norm() < met.deviation() && met.deviation() < 0.05e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met<T: Real> {
     /// The place \[m\].
@@ -72,6 +87,21 @@ impl<T: Real> Met<T> {
 }
 
 /// Why no place can be told.
+///
+/// ```
+/// use fingertip_contact::{LineMeeting, NoMeeting, WrenchSpread};
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// let noise = WrenchSpread::Isotropic { force: 1e-6, torque: 1e-10 };
+/// let push = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.012), Vector3::new(0.0, 0.0, -1.0));
+/// let mut meeting = LineMeeting::<f64>::new();
+/// meeting.add(&push, noise);
+/// assert_eq!(meeting.find(), Err(NoMeeting::TooFew(1)));
+/// // The same push again does not tell how high the place is.
+/// meeting.add(&push, noise);
+/// assert_eq!(meeting.find(), Err(NoMeeting::Parallel));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NoMeeting<T: Real> {

@@ -4,6 +4,25 @@ use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 /// How a sample fits to those before it.
+///
+/// ```
+/// use fingertip_contact::{Continuity, Sighting, Tracker};
+/// use fingertip_surfaces::Sphere;
+/// use nalgebra::{Matrix2, Vector3};
+///
+/// let ball = Sphere::centred(0.013)?;
+/// // Seen to 0.1 mm, below and then at the side.
+/// let seen = |normal: Vector3<f64>, tangent| {
+///     Sighting::new(normal * 0.013, normal, [tangent, normal.cross(&tangent)], Matrix2::identity() * 1e-8)
+/// };
+/// let (below, aside) = (seen(-Vector3::z(), Vector3::x()), seen(Vector3::x(), Vector3::y()));
+/// let mut tracker = Tracker::new(0.01, 0.1)?;
+/// let mut follow = |seen: &Option<_>| tracker.follow(&ball, seen.as_ref(), 1e-3).map(|now| now.continuity);
+/// assert_eq!([follow(&below), follow(&below)], [Some(Continuity::New), Some(Continuity::Followed)]);
+/// // One sample elsewhere may be wrong, two are another contact.
+/// assert_eq!([follow(&aside), follow(&aside)], [Some(Continuity::Doubted), Some(Continuity::New)]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -22,6 +41,23 @@ pub enum Continuity {
 /// Where a contact is, by all samples so far.
 ///
 /// Numbers in a plane refer to `tangents`, which are carried along the surface without turning about the normal.
+///
+/// ```
+/// use fingertip_contact::{Sighting, Tracked, Tracker};
+/// use fingertip_surfaces::Sphere;
+/// use nalgebra::{Matrix2, Vector3};
+///
+/// // A contact at rest below a ball of 13 mm, each sample seen to 0.1 mm.
+/// let (ball, normal) = (Sphere::centred(0.013)?, -Vector3::z());
+/// let seen = Sighting::new(normal * 0.013, normal, [Vector3::x(), -Vector3::y()], Matrix2::identity() * 1e-8);
+/// let mut tracker = Tracker::new(0.001, 0.1)?;
+/// let tracked: Tracked<f64> =
+///     (0..100).filter_map(|_| tracker.follow(&ball, seen.as_ref(), 1e-3)).last().ok_or("no contact")?;
+/// // A hundred samples know the place better than one.
+/// assert!(tracked.deviation() < 0.05e-3 && tracked.velocity.norm() < 1e-9);
+/// assert!((tracked.point - normal * 0.013).norm() < 1e-9 && !tracked.is_new());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

@@ -47,6 +47,21 @@ use crate::WorstErrors;
 ///
 /// Only entries of lines and normals are asked of the surface, so it holds for every convex
 /// [`ActiveSurface`], with edges too (any normal of the edge will do in 2).
+///
+/// ```
+/// use fingertip_contact::{ConvexBound, WorstErrors};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 1 N through the centre of a sphere of 10 mm; at most 10 mN and 0.1 N·mm are wrong.
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+/// let errors = WorstErrors::of_wrench(0.01, 1e-4);
+/// let bound = ConvexBound::new(&Sphere::centred(0.01)?, &wrench, &errors, 0.01).ok_or("no bound")?;
+/// // (0.1 N·mm + 10 mm · 10 mN)/1 N across the line, and next to nothing along it.
+/// assert!((bound.across - 0.2e-3_f64).abs() < 1e-6 && bound.distance < 0.25e-3 && !bound.past_silhouette);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConvexBound<T: Real> {
     /// How far the true contact is at most from the measured line of action \[m\].

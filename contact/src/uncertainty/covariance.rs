@@ -10,6 +10,24 @@ use crate::Contact;
 /// How noise of the wrench and of the geometry spreads a contact, to first order: the covariance
 /// of its position along the two tangents \[m\], normal force, tangential force along the two
 /// tangents \[N\] and spin torque \[N·m\].
+///
+/// ```
+/// use fingertip_contact::{ContactCovariance, ContactJacobian, ContactModel, SoftFinger};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix6, Vector3};
+///
+/// // 1 N at the top of a sphere of 10 mm; 10 mN and 0.1 N·mm of noise.
+/// let (sphere, wrench) = (Sphere::centred(0.01)?, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros()));
+/// let contact = SoftFinger::new(0.05)?.resolve(&wrench, &sphere).into_result()?;
+/// let jacobian = ContactJacobian::of_soft_finger_on(&contact, &sphere).ok_or("it grazes")?;
+/// let noise = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let covariance = ContactCovariance::new(&jacobian, &noise);
+/// // 0.1 mm from the torque, and 0.1 mm from the force on its arm.
+/// assert!((covariance.position().m11 - 2e-8_f64).abs() < 1e-12);
+/// assert!((covariance.normal_force_variance().sqrt() - 0.01).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -24,6 +42,25 @@ pub struct ContactCovariance<T: Real> {
 }
 
 /// The ellipse in the tangent plane that holds the contact with a given probability.
+///
+/// ```
+/// # use fingertip_contact::{ContactJacobian, ContactModel, SoftFinger};
+/// # use fingertip_surfaces::Sphere;
+/// # use fingertip_wrench::Wrench;
+/// # use nalgebra::{Matrix6, Vector3};
+/// # let (sphere, wrench) = (Sphere::centred(0.01)?, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros()));
+/// # let contact = SoftFinger::new(0.05)?.resolve(&wrench, &sphere).into_result()?;
+/// # let jacobian = ContactJacobian::of_soft_finger_on(&contact, &sphere).ok_or("it grazes")?;
+/// # let noise = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// use fingertip_contact::{ConfidenceEllipse, ContactCovariance};
+///
+/// // Of a contact at the top of a sphere, known to √2 · 0.1 mm in each direction.
+/// let covariance = ContactCovariance::new(&jacobian, &noise);
+/// let ellipse: ConfidenceEllipse<f64> = covariance.ellipse(0.95).ok_or("no probability")?;
+/// let expected = (-2.0 * 0.05_f64.ln()).sqrt() * 2.0_f64.sqrt() * 0.1e-3;
+/// assert!(ellipse.semi_axes.iter().all(|metres| (metres - expected).abs() < 1e-9));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

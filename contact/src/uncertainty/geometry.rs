@@ -8,6 +8,22 @@ use nalgebra::{Matrix3, Vector3};
 use super::is_covariance;
 
 /// How a surface changes near a contact, per unit of one of its parameters.
+///
+/// ```
+/// # use fingertip_contact::{ContactModel, SoftFinger};
+/// # use fingertip_surfaces::Sphere;
+/// # use fingertip_wrench::Wrench;
+/// # use nalgebra::Vector3;
+/// # let (sphere, wrench) = (Sphere::centred(0.01)?, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros()));
+/// # let contact = SoftFinger::new(0.05)?.resolve(&wrench, &sphere).into_result()?;
+/// use fingertip_contact::{ContactJacobian, GeometrySensitivity};
+///
+/// // A contact at the top of a sphere moves up as its radius grows.
+/// let jacobian = ContactJacobian::of_soft_finger_on(&contact, &sphere).ok_or("it grazes")?;
+/// let by_radius = jacobian.point_answer_to(&GeometrySensitivity::<f64>::offset());
+/// assert!((by_radius - Vector3::z()).norm() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeometrySensitivity<T: Real> {
     /// How far the surface moves along its outward normal.
@@ -66,6 +82,30 @@ impl<T: Real> GeometrySensitivity<T> {
 }
 
 /// How well the place and the size of a surface are known, as a covariance.
+///
+/// ```
+/// # use fingertip_contact::{ContactJacobian, ContactModel, SoftFinger};
+/// # use fingertip_surfaces::Sphere;
+/// # use fingertip_wrench::Wrench;
+/// # use nalgebra::{Matrix6, Vector3};
+/// # let (sphere, wrench) = (Sphere::centred(0.01)?, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros()));
+/// # let contact = SoftFinger::new(0.05)?.resolve(&wrench, &sphere).into_result()?;
+/// # let jacobian = ContactJacobian::of_soft_finger_on(&contact, &sphere).ok_or("it grazes")?;
+/// use fingertip_contact::{ContactCovariance, GeometryUncertainty};
+/// use nalgebra::Matrix3;
+///
+/// // The radius is known to 0.05 mm, the centre to 0.03 mm in each direction, the wrench exactly.
+/// let geometry = GeometryUncertainty {
+///     offset: 0.05e-3_f64.powi(2),
+///     position: Matrix3::identity() * 0.03e-3_f64.powi(2),
+///     ..GeometryUncertainty::none()
+/// }
+/// .checked()?;
+/// let covariance = ContactCovariance::new(&jacobian, &Matrix6::zeros()).with_geometry(&jacobian, &geometry);
+/// // Of a contact at the top both move the height.
+/// assert!((covariance.height_variance().sqrt() - 0.05e-3_f64.hypot(0.03e-3)).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeometryUncertainty<T: Real> {
     /// Variance of the surface's height along its normal \[m²\]: of a radius, of a coat, of the

@@ -45,6 +45,22 @@ use crate::Contact;
 /// `e·(dm − c × df − p df)`, and the 2 × 2 matrix that solves them. So a covariance of the position
 /// costs two products of a matrix and a vector, and no 6 × 6 matrix is made unless
 /// [`local`](Self::local) is asked for.
+///
+/// ```
+/// use fingertip_contact::{ContactJacobian, ContactModel, SoftFinger};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::Vector3;
+///
+/// // 2 N at the top of a sphere of 10 mm.
+/// let (sphere, wrench) = (Sphere::centred(0.01)?, Wrench::on_fingertip(Vector3::z() * -2.0, Vector3::zeros()));
+/// let contact = SoftFinger::new(0.05)?.resolve(&wrench, &sphere).into_result()?;
+/// let jacobian = ContactJacobian::of_soft_finger_on(&contact, &sphere).ok_or("it grazes")?;
+/// // 1 N·mm about y moves the contact by 1 N·mm/2 N = 0.5 mm along x.
+/// let metres_per_newton_metre = jacobian.point()[(0, 4)];
+/// assert!((metres_per_newton_metre - 0.5_f64).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

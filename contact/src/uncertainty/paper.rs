@@ -26,6 +26,21 @@ use nalgebra::Vector3;
 /// In (9) the error is `2R E f(q)`: a contact on the first axis with a force at the angle `q` to
 /// the normal in a coordinate plane. "Worst frame" is the sharp value over all orientations of the
 /// sensor frame. 1 % of error means a contact known to 0.573° on the sphere (8, sharp).
+///
+/// ```
+/// use fingertip_contact::PaperBounds;
+/// use nalgebra::Vector3;
+///
+/// // A sphere of 10 mm, and one per cent of error in each component.
+/// let bounds = PaperBounds::new(0.01, 0.01)?;
+/// let force = Vector3::new(0.3, -0.2, -1.0);
+/// // The sharp bound on a force through the centre is within R E = 0.1 mm, and within the paper's.
+/// let sharp = bounds.central_distance_sharp(&force);
+/// assert!(sharp <= 0.1e-3 && sharp <= bounds.central_distance());
+/// // Where the force is as much aside as inward, the error grows by tan 45° in the paper's frame.
+/// assert!((bounds.obliquity_sharp(core::f64::consts::FRAC_PI_4) - 1.0).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperBounds<T: Real> {
     radius: T,

@@ -21,12 +21,23 @@ fn are_deviations<T: Real, const N: usize>(deviations: &SVector<T, N>) -> bool {
 /// noise covariance `Σ_s` and a covariance `Σ_i` of row `i` of `A` (rows independent, as a
 /// calibration by least squares gives them),
 ///
-/// ```text
-/// Σ_w = B (Σ_s + diag(wᵀ Σ_i w)) Bᵀ
-/// ```
-///
 /// which makes noise proportional to the load out of an uncertain calibration, and a floor out of
 /// the noise.
+///
+/// ```
+/// use fingertip_contact::SensorUncertainty;
+/// use fingertip_wrench::{GaussianElimination, SensorMatrix, Wrench};
+/// use nalgebra::{Matrix6, Vector6};
+///
+/// // Six gauges, one for each component: 2 mV/N and 2 mV/(N·m), with 0.01 mV of noise.
+/// let matrix = SensorMatrix::new(Matrix6::identity() * 2e-3, Vector6::repeat(1.0))?;
+/// let solver = GaussianElimination::new(&matrix)?;
+/// let sensor = SensorUncertainty::independent(&solver, &Vector6::repeat(1e-5_f64))?;
+/// let covariance = sensor.wrench_covariance(&Wrench::zero());
+/// // 0.01 mV are 5 mN.
+/// assert!((covariance[(2, 2)].sqrt() - 5e-3_f64).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorUncertainty<T: Real, const N: usize> {
     solver: SMatrix<T, 6, N>,
@@ -93,6 +104,21 @@ impl<T: Real, const N: usize> SensorUncertainty<T, N> {
 
 /// The noise model of a data sheet: a floor, and a part that grows with the load,
 /// `σ_i² = σ_0i² + (E w_i)²` (`docs/theory/wrench.md#covariance-of-a-wrench`).
+///
+/// ```
+/// use fingertip_contact::WrenchNoise;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Vector3, Vector6};
+///
+/// // A data sheet: 10 mN and 0.1 N·mm at rest, and one per cent of the load.
+/// let noise = WrenchNoise::new(Vector6::new(0.01_f64, 0.01, 0.01, 1e-4, 1e-4, 1e-4), 0.01)?;
+/// let wrench = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+/// let covariance = noise.covariance(&wrench);
+/// // Of 2 N: 10 mN and 20 mN.
+/// assert!((covariance[(2, 2)].sqrt() - 0.01_f64.hypot(0.02)).abs() < 1e-12);
+/// assert!((covariance[(0, 0)].sqrt() - 0.01).abs() < 1e-12);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrenchNoise<T: Real> {
     /// Standard deviations at rest \[N, N, N, N·m, N·m, N·m\].

@@ -7,14 +7,21 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 /// contact's position asks. The less is said, the less it costs.
 ///
 /// ```
-/// use fingertip_contact::WrenchSpread;
-/// use nalgebra::Matrix6;
+/// use fingertip_contact::{ContactCovariance, ContactModel, PointContact, WrenchSpread};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Matrix6, Vector3};
 ///
-/// let covariance = Matrix6::<f64>::identity() * 1e-6;
-/// let all: WrenchSpread<'_, f64> = (&covariance).into();
-/// // A sensor of 1 mN and 10 µN·m on every axis.
-/// let alike = WrenchSpread::Isotropic { force: 1e-6_f64, torque: 1e-10 };
-/// # let _ = (all, alike);
+/// // A sensor of 10 mN and 0.1 N·mm on every axis, and the same as a covariance.
+/// let alike = WrenchSpread::Isotropic { force: 1e-4, torque: 1e-8 };
+/// let covariance = Matrix6::from_diagonal(&[1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8].into());
+/// let wrench = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 0.01), Vector3::new(0.2, 0.0, -1.0));
+/// let contact = PointContact::new(0.05)?.resolve(&wrench, &Sphere::centred(0.01)?).into_result()?;
+/// let position = |spread: WrenchSpread<'_, f64>| {
+///     ContactCovariance::point_contact_position(&contact, &wrench, spread).ok_or("it grazes")
+/// };
+/// assert!((position(alike)? - position((&covariance).into())?).norm() < 1e-15);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WrenchSpread<'a, T: Real> {

@@ -7,6 +7,23 @@ use super::ContactJacobian;
 use fingertip_surfaces::numeric::vectors::larger;
 
 /// How far errors within a box push a contact, to first order.
+///
+/// ```
+/// use fingertip_contact::{ContactJacobian, ContactModel, SoftFinger, WorstCase};
+/// use fingertip_surfaces::Sphere;
+/// use fingertip_wrench::Wrench;
+/// use nalgebra::{Vector3, Vector6};
+///
+/// // 1 N at the top of a sphere of 10 mm; each force is wrong by at most 10 mN, each torque by 0.1 N·mm.
+/// let (sphere, wrench) = (Sphere::centred(0.01)?, Wrench::on_fingertip(-Vector3::z(), Vector3::zeros()));
+/// let contact = SoftFinger::new(0.05)?.resolve(&wrench, &sphere).into_result()?;
+/// let jacobian = ContactJacobian::of_soft_finger_on(&contact, &sphere).ok_or("it grazes")?;
+/// let worst: WorstCase<f64> = jacobian.worst_case(&Vector6::new(0.01, 0.01, 0.01, 1e-4, 1e-4, 1e-4));
+/// // (0.1 N·mm + 10 mm · 10 mN)/1 N along x, and along y.
+/// assert!((worst.components.x - 0.2e-3).abs() < 1e-9 && (worst.distance - 0.2e-3 * 2.0_f64.sqrt()).abs() < 1e-9);
+/// assert!((worst.normal_force - 0.01).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstCase<T: Real> {
     /// Greatest change of each coordinate of the contact in the sensor frame \[m\]: attained by

@@ -63,6 +63,27 @@ impl<const K: usize> Default for GrippingSettings<K> {
 }
 
 /// What the hand makes of a sample.
+///
+/// ```
+/// # use fingertip_simulation::hand::{FingerPlace, GrippingHand, GrippingSettings, HandOptions};
+/// # use fingertip_simulation::hand::{HandScript, HeldObject, SimulatedHand};
+/// # let jar = HeldObject::cylinder(0.03, 0.05, 0.2)?;
+/// # let script = HandScript::default().open(0.3).hold(0.4).lift(0.03, 0.3);
+/// # let mut hand = SimulatedHand::new(jar, FingerPlace::ring::<2>(0.05), &script, HandOptions::default())?;
+/// let (mut first, mut last) = (None, None);
+/// GrippingHand::play(&mut hand, &GrippingSettings::default(), |_, felt, _| {
+///     first.get_or_insert(*felt);
+///     last = Some(*felt);
+/// })?;
+/// // At first the fingers close through the air, at 3 cm/s, and there is nothing to command.
+/// let first = first.expect("the script has samples");
+/// assert!(first.command.is_none() && first.speeds == [0.03; 2]);
+/// // At last each finger presses the jar with at least the 0.5 N that it may not fall below.
+/// let last = last.expect("the script has samples");
+/// assert!(last.command.expect("it holds").normal.iter().all(|newton| *newton >= 0.5));
+/// assert!(last.wrenches.iter().all(|wrench| wrench.force().norm() > 0.4));
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Felt<const K: usize> {

@@ -21,7 +21,7 @@ pub use body::Inertial;
 pub use finger::FingerPlace;
 pub use gripping::{Felt, GrippingHand, GrippingSettings};
 pub use object::HeldObject;
-pub use script::{HandMotion, HandScript, HandSegment};
+pub use script::{HandScript, HandSegment};
 pub use session::{play_standard_hand, standard_hand};
 pub use skin::SkinSettings;
 pub use weighing::Weighing;

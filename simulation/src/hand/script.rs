@@ -178,17 +178,17 @@ impl HandScript {
 
 /// How the hand is and moves, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HandMotion {
+pub(super) struct HandMotion {
     /// Its origin \[m\].
-    pub origin: Vector3<f64>,
+    pub(super) origin: Vector3<f64>,
     /// Its attitude.
-    pub attitude: UnitQuaternion<f64>,
+    pub(super) attitude: UnitQuaternion<f64>,
     /// The velocity of its origin \[m/s\].
-    pub velocity: Vector3<f64>,
+    pub(super) velocity: Vector3<f64>,
     /// The acceleration of its origin \[m/s²\].
-    pub acceleration: Vector3<f64>,
+    pub(super) acceleration: Vector3<f64>,
     /// Its angular velocity \[rad/s\].
-    pub turning: Vector3<f64>,
+    pub(super) turning: Vector3<f64>,
 }
 
 /// What the script has at an instant.

@@ -12,6 +12,29 @@ use crate::imperfections::Imperfections;
 /// and the entries of each sensor's calibration ([`Imperfections`]) stay what they are. With `w` the mean on a
 /// fingertip, `C` its normalised matrix and `w̄ = w/nominal`, its covariance is
 /// `Σ/n + Σ/n₀ + s² w wᵀ + e²|w̄|² C⁻¹ diag(maxⱼ C²ᵢⱼ) C⁻ᵀ`; the sensors are independent.
+///
+/// ```
+/// # use fingertip_simulation::hand::{FingerPlace, GrippingHand, GrippingSettings, HandOptions};
+/// # use fingertip_simulation::hand::{HandScript, HeldObject, SimulatedHand};
+/// # let jar = HeldObject::cylinder(0.03, 0.05, 0.2)?;
+/// # let script = HandScript::default().open(0.3).hold(0.4).lift(0.03, 0.5).hold(0.2);
+/// # let mut hand = SimulatedHand::new(jar, FingerPlace::ring::<2>(0.05), &script, HandOptions::default())?;
+/// use fingertip_hand::ObjectWeight;
+///
+/// let (mut weighing, mut tips) = (None, None);
+/// GrippingHand::play(&mut hand, &GrippingSettings::default(), |sample, felt, gripping| {
+///     // While the jar of 0.2 kg hangs still in the air.
+///     if sample.phase == 3 {
+///         weighing.get_or_insert_with(|| gripping.weighing()).add(&felt.wrenches, &sample.gravity);
+///         tips = Some(sample.tips);
+///     }
+/// })?;
+/// let mut weight = ObjectWeight::new();
+/// assert!(weighing.expect("it hung").observe(&mut weight, &tips.expect("it hung")));
+/// let (kilograms, deviation) = weight.mass().expect("observed");
+/// assert!((kilograms - 0.2).abs() < 4.0 * deviation && deviation < 0.02);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Weighing<const K: usize> {
     sensors: [Doubt; K],

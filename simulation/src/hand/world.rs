@@ -67,6 +67,20 @@ impl<const K: usize> Default for HandOptions<K> {
 }
 
 /// What the hand's electronics know in a sample, and what was really so.
+///
+/// ```
+/// use fingertip_simulation::hand::{FingerPlace, HandOptions, HandScript, HeldObject, SimulatedHand};
+///
+/// let jar = HeldObject::cylinder(0.03, 0.05, 0.2)?;
+/// let script = HandScript::default().open(0.1);
+/// let mut hand = SimulatedHand::new(jar, FingerPlace::ring::<2>(0.05), &script, HandOptions::default())?;
+/// let first = hand.sample().expect("the script is not over");
+/// // It is read at 1 kHz, and the fingers stand on a ring of 5 cm around the jar.
+/// let second = hand.sample().expect("the script is not over");
+/// assert!((second.time - first.time - 1e-3).abs() < 1e-12 && first.open);
+/// assert!((first.tips[0].origin() - first.tips[1].origin()).norm() > 0.09);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct HandSample<const K: usize> {
@@ -89,6 +103,20 @@ pub struct HandSample<const K: usize> {
 }
 
 /// What was really so when a sample was taken.
+///
+/// ```
+/// use fingertip_simulation::hand::{FingerPlace, HandOptions, HandScript, HeldObject, SimulatedHand};
+///
+/// let jar = HeldObject::cylinder(0.03, 0.05, 0.2)?;
+/// let script = HandScript::default().open(0.1);
+/// let mut hand = SimulatedHand::new(jar, FingerPlace::ring::<2>(0.05), &script, HandOptions::default())?;
+/// let truth = hand.sample().expect("the script is not over").truth;
+/// // The jar of 0.2 kg has not been touched, and nothing is on the fingertips.
+/// assert!((truth.mass - 0.2).abs() < 1e-12);
+/// assert!(truth.contacts.iter().all(Option::is_none) && truth.slipping == [false; 2]);
+/// assert!(truth.wrenches[0].force().norm() < 1e-12);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct HandTruth<const K: usize> {
@@ -115,6 +143,27 @@ pub struct HandTruth<const K: usize> {
 }
 
 /// The contact of a fingertip as it is, in the frame of its sensor.
+///
+/// ```
+/// use fingertip_simulation::hand::{FingerPlace, HandOptions, HandScript, HeldObject, SimulatedHand};
+///
+/// let jar = HeldObject::cylinder(0.03, 0.05, 0.2)?;
+/// let script = HandScript::default().open(0.01).hold(0.3);
+/// let mut hand = SimulatedHand::new(jar, FingerPlace::ring::<2>(0.05), &script, HandOptions::default())?;
+/// // The fingers close at 5 cm/s until the first touches.
+/// let touch = loop {
+///     let sample = hand.sample().expect("the script is not over");
+///     hand.drive([0.05; 2]);
+///     if let Some(touch) = sample.truth.contacts[0] {
+///         break touch;
+///     }
+/// };
+/// // It touches with the sphere of the fingertip, and presses.
+/// let radius = hand.options().sensors.design.sphere()?.radius();
+/// assert!((touch.point.norm() - radius).abs() < 1e-4 && touch.force.normal > 0.0);
+/// assert!((touch.normal - touch.point.normalize()).norm() < 1e-9);
+/// # Ok::<(), fingertip_simulation::SimulationError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrueTouch {
     /// Where \[m\].

@@ -54,6 +54,20 @@ pub struct ContactEvents<T: Real> {
 }
 
 /// What a sample tells.
+///
+/// ```
+/// use fingertip_contact::ContactEvents;
+/// use nalgebra::Vector3;
+///
+/// // Noise of 10 mN, touches of 60 mN and more, at 1 kHz: nothing at first, then 0.5 N.
+/// let mut events = ContactEvents::new(0.01, 0.06, 1e6)?;
+/// let before = events.observe(&Vector3::zeros(), 1e-3);
+/// assert!(!before.touching && before.touch.is_none());
+/// // So strong a touch is called by its first sample.
+/// let happened = events.observe(&Vector3::new(0.0, 0.0, -0.5), 1e-3);
+/// assert!(happened.touching && happened.touch == Some(0.0) && happened.release.is_none());
+/// # Ok::<(), fingertip_contact::BadTrack>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

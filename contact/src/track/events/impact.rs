@@ -4,6 +4,25 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 /// A blow: the force rose and fell again.
+///
+/// ```
+/// use fingertip_contact::{ContactEvents, Impact};
+/// use nalgebra::Vector3;
+///
+/// // Noise of 10 mN. A blow of half a sine, 10 ms long and 2 N high, sampled at 1 kHz.
+/// let mut events = ContactEvents::new(0.01, 0.06, 1e6)?;
+/// let newtons = |ms: u8| match ms {
+///     5..15 => 2.0 * (f64::from(ms - 5) * 0.1 * core::f64::consts::PI).sin(),
+///     _ => 0.0,
+/// };
+/// let blow: Impact<f64> = (0..60)
+///     .find_map(|ms| events.observe(&Vector3::new(0.0, 0.0, -newtons(ms)), 1e-3).impact)
+///     .ok_or("no blow")?;
+/// // Its impulse is 2/π of height times length.
+/// assert!((blow.peak - 2.0).abs() < 0.01 && (blow.impulse.z + 0.02 * 2.0 / core::f64::consts::PI).abs() < 5e-4);
+/// assert!(blow.duration > 5e-3 && blow.duration < 15e-3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

@@ -45,6 +45,23 @@ pub struct MotionJudge<T: Real> {
 }
 
 /// The probability of each; they add up to one.
+///
+/// ```
+/// use fingertip_contact::{FingerVelocity, MotionJudge, Motions, Sighting, Tracker};
+/// use fingertip_surfaces::Sphere;
+/// use nalgebra::{Matrix2, Vector3};
+///
+/// // A contact that stays at the lowest point of a ball of 13 mm, seen to 0.01 mm, while the finger rests.
+/// let (ball, normal) = (Sphere::centred(0.013)?, -Vector3::z());
+/// let seen = Sighting::new(normal * 0.013, normal, [Vector3::x(), -Vector3::y()], Matrix2::identity() * 1e-10);
+/// let mut tracker = Tracker::new(0.01, 0.1)?;
+/// let tracked = (0..500).filter_map(|_| tracker.follow(&ball, seen.as_ref(), 1e-3)).last().ok_or("no contact")?;
+/// let rests = FingerVelocity { linear: Vector3::zeros(), angular: Vector3::zeros() };
+/// let motions: Motions<f64> = MotionJudge::new(0.01, 5e-4, 0.01)?.judge(&tracked, &rests).ok_or("no numbers")?;
+/// assert!(motions.sticking > 0.9);
+/// assert!((motions.sticking + motions.rolling + motions.sliding - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

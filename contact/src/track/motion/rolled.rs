@@ -16,6 +16,32 @@ use crate::track::{BadTrack, Sighting, Tracked};
 /// against each other; two directions tell all three numbers. The tracker's way lays the fingertip flat; each
 /// sighting counts by its own noise. Start anew when it slides or the contact is new. It takes the finger's curvature
 /// for constant, as on a sphere, a cylinder or a plane; on other shapes its mean over the way counts.
+///
+/// ```
+/// use fingertip_contact::{FingerVelocity, RollingCurvature, Sighting, Tracker};
+/// use fingertip_surfaces::{Sphere, numeric::vectors::tangents};
+/// use nalgebra::{Matrix2, Rotation3, Vector3};
+///
+/// // A fingertip of 13 mm rolls over a ball of 50 mm at 2 rad/s, first about y, then about x of the fingertip.
+/// let (tip, ball) = (0.013_f64, 0.05);
+/// let (mut tracker, mut rolling) = (Tracker::new(0.026, 0.2)?, RollingCurvature::new(tip)?);
+/// let mut normal = -Vector3::z();
+/// for axis in [Vector3::y_axis(), Vector3::x_axis()] {
+///     for _ in 0..300 {
+///         normal = Rotation3::from_axis_angle(&axis, 2e-3) * normal;
+///         let way = axis.cross(&normal) * (2.0 * tip);
+///         let angular = (way * (1.0 / tip + 1.0 / ball)).cross(&normal);
+///         let finger = FingerVelocity { linear: -angular.cross(&(normal * tip)), angular };
+///         let seen = Sighting::new(normal * tip, normal, tangents(&normal).into(), Matrix2::identity() * 1e-12)
+///             .ok_or("not finite")?;
+///         let tracked = tracker.follow(&Sphere::centred(tip)?, Some(&seen), 1e-3).ok_or("lost")?;
+///         rolling.roll(&tracked, &seen, &finger, &(Matrix2::identity() / tip), 1e-3);
+///     }
+/// }
+/// let found = rolling.find()?.curvature;
+/// assert!((found.m11 - 1.0 / ball).abs() < 2.0 && (found.m22 - 1.0 / ball).abs() < 2.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -36,6 +62,34 @@ pub struct RollingCurvature<T: Real> {
 }
 
 /// The curvature of an object where it is touched.
+///
+/// ```
+/// # use fingertip_contact::{FingerVelocity, Sighting, Tracker};
+/// # use fingertip_surfaces::{Sphere, numeric::vectors::tangents};
+/// # use nalgebra::{Matrix2, Rotation3, Vector3};
+/// # let tip = 0.013_f64;
+/// # let (mut tracker, mut rolling) = (Tracker::new(0.026, 0.2)?, RollingCurvature::new(tip)?);
+/// # let mut normal = -Vector3::z();
+/// # for axis in [Vector3::y_axis(), Vector3::x_axis()] {
+/// #     for _ in 0..300 {
+/// #         normal = Rotation3::from_axis_angle(&axis, 2e-3) * normal;
+/// #         let way = axis.cross(&normal) * (2.0 * tip);
+/// #         let angular = (way / tip).cross(&normal);
+/// #         let finger = FingerVelocity { linear: -angular.cross(&(normal * tip)), angular };
+/// #         let seen = Sighting::new(normal * tip, normal, tangents(&normal).into(), Matrix2::identity() * 1e-12)
+/// #             .ok_or("not finite")?;
+/// #         let tracked = tracker.follow(&Sphere::centred(tip)?, Some(&seen), 1e-3).ok_or("lost")?;
+/// #         rolling.roll(&tracked, &seen, &finger, &(Matrix2::identity() / tip), 1e-3);
+/// #     }
+/// # }
+/// use fingertip_contact::{ObjectCurvature, RollingCurvature};
+///
+/// // A fingertip of 13 mm has rolled over a flat table in two directions.
+/// let table: ObjectCurvature<f64> = rolling.find()?;
+/// assert!(table.curvature.norm() < 3.0);
+/// assert!(table.tangents[0].dot(&table.tangents[1]).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObjectCurvature<T: Real> {
     /// Along the tangents of the last sample \[1/m\], positive where the object is convex.
@@ -47,6 +101,15 @@ pub struct ObjectCurvature<T: Real> {
 }
 
 /// Why no curvature can be told.
+///
+/// ```
+/// use fingertip_contact::{NoCurvature, RollingCurvature};
+///
+/// // Nothing has rolled yet.
+/// let rolling = RollingCurvature::new(0.013_f64)?;
+/// assert_eq!(rolling.find(), Err(NoCurvature::OneDirection));
+/// # Ok::<(), fingertip_contact::BadTrack>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoCurvature {
