@@ -71,6 +71,9 @@ pub struct SlipDirection<T: Real> {
 /// Both calls are total: for a contact that does not press, the margin is negative (or zero) and
 /// the utilisation saturates. Input that is not finite gives a margin of minus the largest number.
 ///
+/// # For implementers
+/// With the feature `testing`, `testing::model_laws` tries a model of your own.
+///
 /// ```
 /// use fingertip_friction::{Coulomb, FrictionModel, SoftFingerLimit};
 /// use fingertip_wrench::ContactForce;

@@ -57,7 +57,8 @@ impl SlipVerdict {
 /// # For implementers
 /// One update is bounded work without allocation; the state is part of the value, so that cloning
 /// a detector clones its memory. A sample that is not finite must leave the state as it was and
-/// answer [`SlipVerdict::NotPressing`].
+/// answer [`SlipVerdict::NotPressing`]. With the feature `testing`, `testing::detector_laws` tries a detector of your
+/// own.
 ///
 /// ```
 /// use fingertip_friction::{DropDetector, ForceNoise, SlipDetector, SlipVerdict};
