@@ -110,6 +110,10 @@ impl Parameter {
 /// Implementors give the response as a function of the parameters, smooth within their bounds.
 /// Symmetries and other constraints belong into the function: parameters that are not free are no
 /// parameters.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no family of gauge layouts",
+    note = "implement `DesignSpace`: `parameters`, `channels` and `response`"
+)]
 pub trait DesignSpace: Sync {
     /// The parameters and their bounds.
     fn parameters(&self) -> &[Parameter];

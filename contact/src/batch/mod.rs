@@ -81,6 +81,10 @@ pub struct Entered<T: Real> {
 /// Batches are fastest where all lines meet the surface, and where the columns do not begin at the same
 /// place of a memory page: thirteen columns of a multiple of 4 KiB, one after another, compete for the
 /// same lines of the cache and take up to three times as long. A few numbers of padding help.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no kernel for columns of `{T}`",
+    note = "shapes of closed form have one; others take wrenches one by one, by `ContactModel::resolve`"
+)]
 pub trait BatchSurface<T: Real> {
     /// Resolves all wrenches, with the widest vectors of the processor at hand if the feature `simd` is
     /// on. Wider vectors do the same operations on more wrenches at once: nothing is fused or reordered.

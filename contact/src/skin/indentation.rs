@@ -37,6 +37,10 @@ pub struct IndentationSlope<T: Real> {
 /// # For implementers
 /// Depth and patch shall be finite, not negative and not falling with the force, and the depth
 /// zero at a force of zero. The force given is finite and not negative.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not say how a skin on `{S}` gives way to a force of `{T}`",
+    note = "take `LinearStiffness`, `PowerLaw`, `Hertz` or `Tabulated`, or implement `SkinLaw::indentation_at`"
+)]
 pub trait SkinLaw<T: Real, S> {
     /// The indentation under a contact on the undeformed surface that presses with a normal force
     /// \[N\].

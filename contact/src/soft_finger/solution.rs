@@ -51,6 +51,10 @@ pub enum Search<T: Real> {
 /// too. The wrench is finite, its force is not zero, and its largest component lies between the roots
 /// of the least and of the greatest number of the type. Solutions shall be accurate for spin
 /// torques down to zero.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the soft contacts of a wrench of `{T}`",
+    note = "a shape with `SmoothSurface` implements `SoftFingerSurface` by `newton_soft_contacts`; a `PointContact` takes any `ActiveSurface`"
+)]
 pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
     /// Calls `visit` for every solution that presses. `last`, the contact point of the sample
     /// before, may be used as a start.
