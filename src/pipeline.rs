@@ -105,19 +105,19 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     // Always in line: an answer that goes through memory is written in small pieces and read in large
     // ones, which costs more than a sample of a small scene.
     #[inline(always)]
-    pub fn sense<T, M, const N: usize>(
+    pub fn sense<T, M, Reading, Verdict, const N: usize>(
         &mut self,
         raw: &Zero::Raw,
         step: impl Into<Step<T, M>>,
-    ) -> Touch<T, Friction::Reading, Detector::Verdict>
+    ) -> Touch<T, Reading, Verdict>
     where
         T: Real,
         Zero: Compensation<SVector<T, N>>,
         Solver: WrenchSolver<T, N>,
         Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, M)>,
         Model: ContactModel<T, Surface>,
-        Friction: GripStage<T>,
-        Detector: SlipStage<T>,
+        Friction: GripStage<T, Reading = Reading>,
+        Detector: SlipStage<T, Verdict = Verdict>,
     {
         let measured = self.solver.solve(&self.zero.compensate(raw));
         self.sense_wrench(measured, step)
@@ -126,17 +126,19 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     /// One wrench, from a sensor that reports wrenches, and the time since the one before \[s\] or a whole
     /// [`Step`].
     #[inline(always)]
-    pub fn sense_wrench<T, M>(
+    // What stages say are parameters: were it told by their traits in the answer, the compiler would call a stage that
+    // is none a method that is not there, without the traits' words for it.
+    pub fn sense_wrench<T, M, Reading, Verdict>(
         &mut self,
         measured: Wrench<T>,
         step: impl Into<Step<T, M>>,
-    ) -> Touch<T, Friction::Reading, Detector::Verdict>
+    ) -> Touch<T, Reading, Verdict>
     where
         T: Real,
         Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, M)>,
         Model: ContactModel<T, Surface>,
-        Friction: GripStage<T>,
-        Detector: SlipStage<T>,
+        Friction: GripStage<T, Reading = Reading>,
+        Detector: SlipStage<T, Verdict = Verdict>,
     {
         let Step { time, last, motion } = step.into();
         let wrench = self.payload.compensate(&(measured, motion));

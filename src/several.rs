@@ -29,6 +29,10 @@ use crate::{AnyTouch, Step, TouchSensor};
 /// assert_eq!(touching(&mut [thumb, thumb, thumb], &[push, Wrench::zero(), push]), 2);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` are not {N} fingertips of `{T}`",
+    note = "give an array or a tuple of {N} values that implement `TouchSensor`, or implement `Fingertips` for a struct of them"
+)]
 pub trait Fingertips<T: Real, const N: usize> {
     /// One wrench on each fingertip, in the frame of its sensor, and what is known of the sample beside it.
     fn feel_all(&mut self, wrenches: &[Wrench<T>; N], steps: &[Step<T>; N]) -> [AnyTouch<T>; N];

@@ -49,6 +49,10 @@ impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict> {
 /// assert!(touches[0].grip.flatten().is_some() && touches[1].grip.flatten().is_none());
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` feels no touch of `{T}`",
+    note = "a `Fingertip` whose stages are of one scalar does; a sensor of your own implements `TouchSensor::feel` and `start_anew`"
+)]
 pub trait TouchSensor<T: Real> {
     /// One wrench on the fingertip, in the frame of the sensor, and what is known of the sample beside it.
     fn feel(&mut self, wrench: Wrench<T>, step: Step<T>) -> AnyTouch<T>;

@@ -38,6 +38,10 @@ use crate::{Sample, SourceError};
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[allow(async_fn_in_trait, reason = "as in embedded-hal-async: executors of microcontrollers need no Send")]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` gives no `{V}` with times of `{T}` to a task",
+    note = "a source of your own implements `AsyncSource`; one that blocks is a `Source`"
+)]
 pub trait AsyncSource<T, V> {
     /// What can go wrong.
     type Error: SourceError;

@@ -35,6 +35,10 @@ use crate::{Sample, SourceError};
 /// assert_eq!(given.len(), 9);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` gives no `{V}` with times of `{T}` without waiting",
+    note = "a source of your own implements `NbSource`; one that waits is a `Source`"
+)]
 pub trait NbSource<T, V> {
     /// What can go wrong.
     type Error: SourceError;

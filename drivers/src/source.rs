@@ -61,6 +61,10 @@ pub enum SourceErrorKind {
 /// assert_eq!(GloveError::Unplugged.kind(), SourceErrorKind::Transport);
 /// assert_eq!(GloveError::BadLine { number: 7 }.kind(), SourceErrorKind::Corrupt);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not say what kind of error it is",
+    note = "an error of your own source implements `SourceError::kind`"
+)]
 pub trait SourceError: Debug {
     /// What kind of error this is.
     fn kind(&self) -> SourceErrorKind;
@@ -139,6 +143,10 @@ pub struct Sample<T, V> {
 /// assert_eq!(forces, [0.0, -0.5, -1.0]);
 /// # Ok::<(), Infallible>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` gives no `{V}` with times of `{T}`",
+    note = "a sensor of your own implements `Source`; one that does not wait is an `NbSource`, one in tasks an `AsyncSource`"
+)]
 pub trait Source<T, V> {
     /// What can go wrong.
     type Error: SourceError;

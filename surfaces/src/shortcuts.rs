@@ -46,6 +46,10 @@ use crate::{Entry, ForceLine};
 /// assert_eq!((entry.point.z, counted.1.get()), (0.013, asked));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no shortcut of a surface of `{T}`",
+    note = "`ActiveSurface::shortcuts` returns `NoShortcuts`, or what implements `Shortcuts`"
+)]
 pub trait Shortcuts<T: Real>: Sized {
     /// `true` promises that the surface bounds a convex body and may touch everywhere: a line that
     /// passes through it enters once, at an active point, and leaves once, and

@@ -43,6 +43,10 @@ pub struct Distance<T: Real> {
 /// assert!((nearest(&RoundedBox::new(Vector3::repeat(0.01), 0.001)?, &above).z - 0.01).abs() < 1e-15);
 /// # Ok::<(), BadShape>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know how far points of `{T}` are from it",
+    note = "an `Offset` needs that; a shape of your own implements it beside `ActiveSurface`"
+)]
 pub trait SignedDistance<T: Real>: ActiveSurface<T> {
     /// `true` if the inside is convex: its parallel surfaces are then met by a line twice at most,
     /// and found much faster.

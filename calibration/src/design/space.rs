@@ -164,6 +164,10 @@ impl Parameter {
 /// assert!((found.best().ok_or("none")?.values[0] - 0.01).abs() < 1e-5);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no family of gauge layouts",
+    note = "implement `DesignSpace`: `parameters`, `channels` and `response`"
+)]
 pub trait DesignSpace: Sync {
     /// The parameters and their bounds.
     fn parameters(&self) -> &[Parameter];

@@ -163,6 +163,10 @@ pub struct Entered<T: Real> {
 /// assert!((one.point.x - answers[0][7]).abs() < 1e-15 && (one.point.z - answers[2][7]).abs() < 1e-15);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no kernel for columns of `{T}`",
+    note = "shapes of closed form have one; others take wrenches one by one, by `ContactModel::resolve`"
+)]
 pub trait BatchSurface<T: Real> {
     /// Resolves all wrenches, with the widest vectors of the processor at hand if the feature `simd` is
     /// on. Wider vectors do the same operations on more wrenches at once: nothing is fused or reordered.

@@ -88,6 +88,10 @@ pub struct IndentationSlope<T: Real> {
 /// assert!((found.contact.point.z - 0.009).abs() < 1e-9);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not say how a skin on `{S}` gives way to a force of `{T}`",
+    note = "take `LinearStiffness`, `PowerLaw`, `Hertz` or `Tabulated`, or implement `SkinLaw::indentation_at`"
+)]
 pub trait SkinLaw<T: Real, S> {
     /// The indentation under a contact on the undeformed surface that presses with a normal force
     /// \[N\].

@@ -102,6 +102,10 @@ pub enum Search<T: Real> {
 /// assert!(contacts(&Ellipsoid::new(Vector3::new(0.008, 0.009, 0.012))?, &wrench) >= 1);
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the soft contacts of a wrench of `{T}`",
+    note = "a shape with `SmoothSurface` implements `SoftFingerSurface` by `newton_soft_contacts`; a `PointContact` takes any `ActiveSurface`"
+)]
 pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
     /// Calls `visit` for every solution that presses. `last`, the contact point of the sample
     /// before, may be used as a start.

@@ -91,6 +91,10 @@ pub struct WireFaults {
 /// assert_eq!(bytes, [0, 1, 2]);
 /// # Ok::<(), core::convert::Infallible>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` simulates no converter",
+    note = "a simulated device answers bytes with bytes and lets time pass: it implements `SimulatedDevice`"
+)]
 pub trait SimulatedDevice {
     /// Time goes on by so much \[ns\].
     fn advance(&mut self, nanoseconds: u64);

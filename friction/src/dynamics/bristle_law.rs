@@ -27,6 +27,10 @@ use crate::{BadParameter, Stribeck};
 /// assert!(greatest(&LuGre::reference()?) > 0.0);
 /// # Ok::<(), fingertip_friction::BadParameter>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no law of bristles in `{T}`",
+    note = "take `Dahl`, `LuGre` or `ElastoPlastic`, or implement `BristleLaw`: `stiffness`, `steady` and `greatest`"
+)]
 pub trait BristleLaw<T: Real> {
     /// σ₀ \[N/m\].
     fn stiffness(&self) -> T;

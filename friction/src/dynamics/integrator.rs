@@ -34,6 +34,10 @@ use super::bristle::clamped;
 /// assert!((slid.end[0] - 1.0).abs() < 1e-9); // Coulomb's 0.5 times 2 N
 /// # Ok::<(), fingertip_friction::BadParameter>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not integrate bristles",
+    note = "take `Exponential`, `Implicit` or `ReturnMap`, or implement `Integrator::advance`"
+)]
 pub trait Integrator: Copy {
     /// The new deflection, and the mean deflection over the step. `step` is `hv`, `slide` is `hλ` with
     /// `λ = α σ₀|v|/g`, and `limit` is `g/σ₀`.

@@ -71,6 +71,9 @@ pub struct SlipDirection<T: Real> {
 /// Both calls are total: for a contact that does not press, the margin is negative (or zero) and
 /// the utilisation saturates. Input that is not finite gives a margin of minus the largest number.
 ///
+/// # For implementers
+/// With the feature `testing`, `testing::model_laws` tries a model of your own.
+///
 /// ```
 /// use fingertip_friction::{Coulomb, FrictionModel, SoftFingerLimit};
 /// use fingertip_wrench::ContactForce;
@@ -85,6 +88,10 @@ pub struct SlipDirection<T: Real> {
 /// assert!(grip(&SoftFingerLimit::new(0.5, 3e-3)?, &force) > grip(&Coulomb::new(0.5)?, &force));
 /// # Ok::<(), fingertip_friction::BadParameter>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no friction model of `{T}`",
+    note = "take a limit as `Coulomb`, or implement `FrictionModel`: `slip_margin` and `least_normal_force`; its scalar must be that of the contact force"
+)]
 pub trait FrictionModel<T: Real> {
     /// How far the force is from the limit.
     fn slip_margin(&self, force: &ContactForce<T>) -> SlipMargin<T>;
@@ -111,6 +118,10 @@ pub trait FrictionModel<T: Real> {
 /// assert!(Coulomb::new(0.5)?.holds(&force) && !Coulomb::new(0.2)?.holds(&force));
 /// # Ok::<(), fingertip_friction::BadParameter>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the shape of its friction limit in `{T}`",
+    note = "a model of your own implements `FrictionLimit` beside `FrictionModel`: `normal_force_keeping`, `project` and `slip_direction`"
+)]
 pub trait FrictionLimit<T: Real>: FrictionModel<T> {
     /// `true` if the contact holds, the limit included.
     #[inline]

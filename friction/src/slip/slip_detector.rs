@@ -57,7 +57,8 @@ impl SlipVerdict {
 /// # For implementers
 /// One update is bounded work without allocation; the state is part of the value, so that cloning
 /// a detector clones its memory. A sample that is not finite must leave the state as it was and
-/// answer [`SlipVerdict::NotPressing`].
+/// answer [`SlipVerdict::NotPressing`]. With the feature `testing`, `testing::detector_laws` tries a detector of your
+/// own.
 ///
 /// ```
 /// use fingertip_friction::{DropDetector, ForceNoise, SlipDetector, SlipVerdict};
@@ -78,6 +79,10 @@ impl SlipVerdict {
 /// assert_eq!(verdict, SlipVerdict::Slipping);
 /// # Ok::<(), fingertip_friction::BadParameter>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` detects no slip in contact forces of `{T}`",
+    note = "take a detector as `DropDetector`, or implement `SlipDetector`: `update` and `reset`; its scalar must be that of the contact force"
+)]
 pub trait SlipDetector<T: Real> {
     /// Takes the contact force of one sample and the time since the one before \[s\].
     fn update(&mut self, force: &ContactForce<T>, time_step: T) -> SlipVerdict;

@@ -165,7 +165,7 @@ fn each_law_notices_its_fault() {
         (plain, Fault::ProjectsInside, "projection keeps what holds"),
         (claims(), Fault::LeastBelowZero, "least normal force"),
         (claims(), Fault::LeastTooGreat, "least normal force uses 1/safety"),
-        (claims(), Fault::LeastTooSmall, "least normal force uses 1/safety"),
+        (claims(), Fault::LeastTooSmall, "least normal force keeps the safety"),
         (claims(), Fault::KeepsTooLittle, "normal force keeps the margin"),
         (claims(), Fault::KeepsTooMuch, "normal force is the least to keep the margin"),
         (claims(), Fault::HasNoDirection, "a load has a direction of slip"),

@@ -64,6 +64,13 @@ fn laws_hold() {
     laws_of_all::<f32>(1500);
 }
 
+/// Every model of the crate is tried above: `$limit` is what both soft fingers are made of.
+#[test]
+fn no_model_is_left_out() {
+    let tried = ["$limit", "AnisotropicCoulomb", "Coulomb", "LoadDependentLimit"];
+    assert_eq!(crate::laws_of_detectors::implementers("FrictionModel"), tried);
+}
+
 fn force(normal: f64, one: f64, two: f64, spin: f64) -> ContactForce<f64> {
     ContactForce::new(normal, Vector3::new(one, two, 0.0), spin)
 }

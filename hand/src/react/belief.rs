@@ -31,6 +31,10 @@ use crate::HandSettings;
 /// assert_eq!(belief.rely(0.5, &force, SlipVerdict::Slipping, 1e-3, &HandSettings::default()), 0.4);
 /// assert_eq!(belief.1, 1);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` believes nothing about friction in `{T}`",
+    note = "take `SlipFactor`, `LearntFriction` or `AnyBelief`, of the scalar of the hand"
+)]
 pub trait FrictionBelief<T: Real> {
     /// Takes a sample of a contact that is believed: what is known of the friction beforehand (a low quantile), force,
     /// verdict and the time since the last one \[s\], not negative. Returns the coefficient to rely on, positive.

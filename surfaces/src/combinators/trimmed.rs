@@ -32,6 +32,10 @@ use crate::{
 /// assert_eq!(active, [true, false]); // the top, and the bottom
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no region of a surface of `{T}`",
+    note = "a closure that answers for a point is one, and a `HalfSpace`; a type of your own implements `Region::includes`"
+)]
 pub trait Region<T: Real> {
     /// `true` if the point belongs to it.
     fn includes(&self, point: &Vector3<T>) -> bool;

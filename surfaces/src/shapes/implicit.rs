@@ -39,6 +39,10 @@ use crate::{
 /// assert!(!pillow.contains(&Vector3::new(0.0, 0.0, 0.0101)));
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no implicit surface of `{T}`",
+    note = "a shape by its equation implements `ImplicitSurface::formula` and `ball`, and is wrapped in `Implicit`"
+)]
 pub trait ImplicitSurface<T: Real> {
     /// Zero on the surface, negative inside; finite everywhere in the ball.
     ///

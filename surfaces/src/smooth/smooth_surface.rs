@@ -162,6 +162,10 @@ pub enum Corner<T: Real> {
 /// assert!((least_radius(&tip, &Vector3::new(0.0, 0.0, 0.016)) - 0.004).abs() < 1e-15);
 /// # Ok::<(), BadShape>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know its curvature in `{T}`",
+    note = "a shape of your own implements `SmoothSurface::level` and `extent` beside `ActiveSurface`"
+)]
 pub trait SmoothSurface<T: Real>: ActiveSurface<T> {
     /// The level function and its derivatives at a point near the surface.
     fn level(&self, point: &Vector3<T>) -> Level<T>;

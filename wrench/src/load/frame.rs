@@ -24,6 +24,10 @@ use core::fmt::Debug;
 /// let at_palm: Wrench<f64, Palm> = at_sensor.expressed_in(&palm_from_sensor);
 /// assert_eq!(at_palm.torque(), Vector3::new(0.0, 0.1, 0.0));
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no coordinate frame",
+    note = "`struct Palm;` with `impl Frame for Palm` and derived `Clone, Copy, Debug, PartialEq` is one"
+)]
 pub trait Frame: Copy + Debug + PartialEq + 'static {
     /// What reports and errors call the frame.
     const NAME: &'static str;

@@ -26,6 +26,10 @@ use nalgebra::RealField;
 /// let near = 1.0 + f64::EPSILON;
 /// assert_eq!(near.two_product(near), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no scalar of fingertip",
+    note = "take `f32` or `f64`: a number with a point, as in `1.0`"
+)]
 pub trait Real: RealField + Copy {
     /// Distance from 1 to the next larger number (`2^-52` for `f64`, `2^-23` for `f32`).
     const EPSILON: Self;

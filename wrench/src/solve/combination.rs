@@ -42,6 +42,10 @@ use crate::Real;
 /// assert_eq!(Cross::combine(&force), Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0));
 /// assert_eq!(Cross::combine(&torque), Vector6::new(0.0, 0.0, 0.0, 0.0, 1.0, 0.0));
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no pattern of {N} gauges",
+    note = "take one of the patterns of `fingertip_wrench`, for as many signals as the sensor has"
+)]
 pub trait Combination<const N: usize> {
     /// Row `i` says how the signals are combined to see load `i` of Fx, Fy, Fz, Tx, Ty, Tz.
     const MATRIX: [[f64; N]; 6];

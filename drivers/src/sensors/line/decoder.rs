@@ -23,6 +23,10 @@ use crate::{Sample, SourceError};
 /// assert_eq!(samples.len(), 1);
 /// assert_eq!(LineDecoder::<f64>::statistics(&decoder).frames, 1);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not read samples of `{T}` from a serial line",
+    note = "a protocol of your own implements `LineDecoder`: `push`, `restart`, `statistics`"
+)]
 pub trait LineDecoder<T: Real> {
     /// What the device can say is wrong with itself.
     type Fault: SourceError;
