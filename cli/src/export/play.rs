@@ -98,8 +98,7 @@ pub(super) fn play(
     let [samples, contacts, different, median, greatest, stack] = numbers[..] else { return Err(bad(&said)) };
     if different > 0 {
         return Err(bad(&format!(
-            "{different} of {samples} answers are not the scene's, bit for bit: a function of the scene, as the powers of a \
-             superquadric, is rounded otherwise by the standard library here than by that without an operating system"
+            "{different} of {samples} answers are not the scene's, bit for bit"
         )));
     }
     Ok(Ok(Played { samples, contacts, counted: flash.map(|_| [median, greatest, stack]), flash }))
