@@ -204,8 +204,10 @@ fn turned<T: Real>(axis: &Vector3<T>, angle: T) -> Rotation3<T> {
         return Rotation3::identity();
     }
     let (sine, cosine) = angle.sine_and_cosine();
-    let across = Matrix3::from_diagonal_element(cosine) + (axis * sine).cross_matrix();
-    Rotation3::from_matrix_unchecked(axis * axis.transpose() * (T::one() - cosine) + across)
+    let mut matrix = axis * axis.transpose() * (T::one() - cosine) + (axis * sine).cross_matrix();
+    // `a²(1 − c) + c` with one rounding of a number near 1 less.
+    matrix.set_diagonal(&axis.map(|along| along * along + (T::one() - along * along) * cosine));
+    Rotation3::from_matrix_unchecked(matrix)
 }
 
 /// The rotation nearest to a matrix whose defect `RᵀR − I` is at most `√ε`; one that is rounding is left as it is.

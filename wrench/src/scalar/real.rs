@@ -18,7 +18,7 @@ use nalgebra::RealField;
 /// A type that overrides none has nalgebra's.
 ///
 /// `f32` and `f64` are its full citizens. It is not sealed: dual numbers (to check Jacobians) or
-/// double-double numbers (to make references) may implement it. Only the three constants and
+/// double-double numbers (to make references) may implement it. Only the first three constants and
 /// [`literal`](Real::literal) and [`to_f64`](Real::to_f64) are required.
 ///
 /// ```
@@ -44,6 +44,9 @@ pub trait Real: RealField + Copy {
     const LEAST_NORMAL: Self;
     /// Largest finite number.
     const GREATEST: Self;
+    /// Whether a number carries more than its value, as a dual number does its derivative: an iteration that ends when
+    /// the value has settled then goes on.
+    const CARRIES_MORE: bool = false;
 
     /// The number nearest to `value`.
     fn literal(value: f64) -> Self;
