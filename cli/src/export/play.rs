@@ -97,10 +97,7 @@ pub(super) fn play(
     let numbers: Vec<u32> = cost.split(' ').filter_map(|word| word.parse().ok()).collect();
     let [samples, contacts, different, median, greatest, stack] = numbers[..] else { return Err(bad(&said)) };
     if different > 0 {
-        return Err(bad(&format!(
-            "{different} of {samples} answers are not the scene's, bit for bit: a function of the scene, as the powers of a \
-             superquadric, is rounded otherwise by the standard library here than by that without an operating system"
-        )));
+        return Err(bad(&format!("{different} of {samples} answers are not the scene's, bit for bit")));
     }
     Ok(Ok(Played { samples, contacts, counted: flash.map(|_| [median, greatest, stack]), flash }))
 }

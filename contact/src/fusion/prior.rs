@@ -128,7 +128,7 @@ impl<T: Real> Prior<T> {
         // Far less than where the contact may be, far more than rounding.
         let spread = self.shift_covariance.diagonal().amax().root();
         let size = spread.max(state.point.amax() * T::EPSILON.root());
-        let step = size * T::EPSILON.cbrt() * T::literal(16.0);
+        let step = size * T::EPSILON.cube_root() * T::literal(16.0);
         self.moved_tangents(state).map(|moved| {
             let (ahead, behind) = (state.point + moved * step, state.point - moved * step);
             let change = (surface.normal(&ahead) - surface.normal(&behind)) / (step + step);

@@ -73,7 +73,10 @@ impl<T: Real> PointContact<T> {
             greatest_gap: T::zero(),
             greatest_friction: None,
             least_incidence: T::zero(),
-            short_way: [(least_force * least_force).max(ForceLine::least_squared()), flat::<T>().powi(2)],
+            short_way: [
+                (least_force * least_force).max(ForceLine::least_squared()),
+                flat::<T>().whole_power(2),
+            ],
         })
     }
 
@@ -96,7 +99,7 @@ impl<T: Real> PointContact<T> {
         let mu = check("greatest friction", greatest_friction)?;
         let least_incidence = T::one() / hypotenuse(T::one(), mu);
         let [least_squared, _] = self.short_way;
-        let short_way = [least_squared, least_incidence.max(flat()).powi(2)];
+        let short_way = [least_squared, least_incidence.max(flat()).whole_power(2)];
         Ok(Self { greatest_friction: Some(mu), least_incidence, short_way, ..self })
     }
 

@@ -5,7 +5,7 @@ use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::numeric::vectors::{length, unit_or};
 use fingertip_surfaces::{ActiveSurface, Cone, Extent, ForceLine, LocalSurface, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
-use nalgebra::{ComplexField, Vector3};
+use nalgebra::Vector3;
 
 use super::slanted_side::SlantedSide;
 use crate::soft_finger::closed_form::{is_active, soft_finger, told};
@@ -69,7 +69,7 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
         }
         // Under a large spin torque the torque tells better on which side the contact is.
         let rest = (problem.torque - closed.cross(&problem.force)) * -problem.power;
-        let slope = cone.half_angle().sin() / cone.half_angle().cos();
+        let slope = cone.half_angle().sine() / cone.half_angle().cosine();
         let across = unit_or(&Vector3::new(rest.x, rest.y, T::zero()), Vector3::x) * slope;
         let turned = (across + Vector3::z()) * closed.z;
         if let Some(contact) = finish(turned) {
@@ -123,7 +123,7 @@ impl<T: Real> SideOfACone<T> {
     /// In the units of a problem, of which a length is the wrench's reach \[m\].
     fn new(problem: &Problem<'_, T, Cone<T>>, cone: &Cone<T>, reach: T) -> Self {
         let (f, m) = (problem.force, problem.torque);
-        let (sine, cosine) = (cone.half_angle().sin(), cone.half_angle().cos());
+        let (sine, cosine) = (cone.half_angle().sine(), cone.half_angle().cosine());
         // This stays in range.
         let (d1, d3) = (cosine * cosine, -(sine * sine));
         let adjugate = Vector3::new(d1 * d3 * m.x, d1 * d3 * m.y, d1 * d1 * m.z);
@@ -190,7 +190,7 @@ fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
     let mut found = on_cone(cone, wrench);
     if found.is_err() {
         let (apex, tip) = (cone.apex(), -cone.axis());
-        let least = cone.half_angle().sin();
+        let least = cone.half_angle().sine();
         on_rim(
             T::zero(),
             &tip,
@@ -210,7 +210,7 @@ fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
 /// As [`on_cone`].
 fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     let is_steady = |contact: &SoftContact<T>| {
-        let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sin();
+        let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sine();
         is_steady(wrench, radius)(contact)
     };
     finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| {
@@ -236,7 +236,7 @@ soft_finger!(
         origin: wide(&shape.apex()),
         axis: wide(&shape.axis()),
         radius: 0.0,
-        taper: [0.0, ComplexField::tan(shape.half_angle().to_f64()), 1.0],
+        taper: [0.0, Real::tangent(shape.half_angle().to_f64()), 1.0],
     }),
     sizes | shape, size, point | of_cone(shape, point).get(size).copied()
 );
@@ -245,7 +245,7 @@ soft_finger!(
 /// from the axis and the depth `h` under the apex.
 fn of_cone<T: Real>(shape: &Cone<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
     let level = shape.level(point);
-    let (sine, cosine) = shape.half_angle().sin_cos();
+    let (sine, cosine) = shape.half_angle().sine_and_cosine();
     let from_apex = point - shape.apex();
     let depth = from_apex.dot(&shape.axis());
     // ρ = (g + a sin α)/cos α.

@@ -74,7 +74,7 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
     let cone = || {
         let apex = base + axis * (solid.base_radius() / taper);
         let into = if taper > T::zero() { -axis } else { axis };
-        Cone::new(apex, into, taper.abs().atan()).ok()
+        Cone::new(apex, into, taper.abs().arctangent()).ok()
     };
     let rough = if taper.is_zero() { None } else { cone().map(|cone| on_cone(&cone, wrench)) };
     let rough = match rough {

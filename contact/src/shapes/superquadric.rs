@@ -74,7 +74,7 @@ fn search_finely<T: Real>(
 /// ones: the steps that are enough for the value are too few for its derivative.
 #[inline(never)]
 fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-    if size_of::<T>() > size_of::<f64>() {
+    if T::CARRIES_MORE {
         return None;
     }
     let (f, m, axes) = (push.force(), push.torque(), shape.semi_axes());

@@ -17,7 +17,7 @@ fn root<T: Real>(x: T) -> T {
 pub(super) fn r_f<T: Real>(x: T, y: T, z: T) -> T {
     let quarter = T::literal(0.25);
     // The series that ends the iteration is exact to the sixth power of this.
-    let close = (T::EPSILON * quarter).powf(T::literal(1.0 / 6.0)) * T::literal(0.5);
+    let close = (T::EPSILON * quarter).power(T::literal(1.0 / 6.0)) * T::literal(0.5);
     let (mut x, mut y, mut z) = (x, y, z);
     let mut result = T::zero();
     for _ in 0..BOUND {
@@ -44,7 +44,7 @@ pub(super) fn r_f<T: Real>(x: T, y: T, z: T) -> T {
 /// positive (Carlson 1995; DLMF 19.36.2).
 pub(super) fn r_d<T: Real>(x: T, y: T, z: T) -> T {
     let quarter = T::literal(0.25);
-    let close = (T::EPSILON * quarter).powf(T::literal(1.0 / 6.0)) * T::literal(0.35);
+    let close = (T::EPSILON * quarter).power(T::literal(1.0 / 6.0)) * T::literal(0.35);
     let (mut x, mut y, mut z) = (x, y, z);
     let (mut sum, mut factor) = (T::zero(), T::one());
     let mut result = T::zero();

@@ -93,7 +93,7 @@ impl<T: Real> Hertz<T> {
         let two_pi = T::two_pi();
         let integral = r_d(T::zero(), squared, T::one());
         // 1/(2π E* A) = R_x/(π E*)
-        let patch = (integral * (long + long) / (two_pi * modulus)).cbrt();
+        let patch = (integral * (long + long) / (two_pi * modulus)).cube_root();
         // δ = 3F/(2πa) R_F/E*
         let depth = T::literal(3.0) * r_f(T::zero(), squared, T::one()) / (two_pi * patch * modulus);
         BadShape::check(
@@ -131,7 +131,7 @@ impl<T: Real> Hertz<T> {
     #[inline]
     #[must_use]
     pub fn indentation(&self, normal_force: T) -> Indentation<T> {
-        let root = normal_force.max(T::zero()).cbrt();
+        let root = normal_force.max(T::zero()).cube_root();
         let a = self.patch * root;
         Indentation { depth: self.depth * root * root, patch: [a, a * self.ratio] }
     }
@@ -139,7 +139,7 @@ impl<T: Real> Hertz<T> {
     /// How fast the depth grows with the normal force \[m/N\]: two thirds of `δ/F`; at no force without bound.
     #[must_use]
     pub fn compliance(&self, normal_force: T) -> T {
-        self.depth * T::literal(2.0 / 3.0) / normal_force.max(T::zero()).cbrt()
+        self.depth * T::literal(2.0 / 3.0) / normal_force.max(T::zero()).cube_root()
     }
 }
 
@@ -151,13 +151,13 @@ fn patch_ratio<T: Real>(radii: T) -> T {
         return T::one();
     }
     let excess = |log: T| {
-        let squared = (log + log).exp();
+        let squared = (log + log).exponential();
         let quotient = r_d(T::zero(), T::one(), squared) / r_d(T::zero(), squared, T::one());
-        (quotient * radii).ln()
+        (quotient * radii).logarithm()
     };
     // The excess falls with the logarithm of the ratio: positive at R_y/R_x, negative at 1.
-    let (mut low, mut high) = (radii.ln(), T::zero());
-    let (mut at_low, mut at_high) = (excess(low), radii.ln());
+    let (mut low, mut high) = (radii.logarithm(), T::zero());
+    let (mut at_low, mut at_high) = (excess(low), radii.logarithm());
     // So nearly round that rounding hides which side of the zero this is on: the bracket is the answer.
     if !(at_low > T::zero()) {
         return radii;
@@ -180,5 +180,5 @@ fn patch_ratio<T: Real>(radii: T) -> T {
             break;
         }
     }
-    guess.exp()
+    guess.exponential()
 }

@@ -28,7 +28,7 @@ pub struct Indentation<T: Real> {
 
 /// The derivative at a positive number, from central differences.
 fn slope<T: Real>(at: T, of: impl Fn(T) -> T) -> T {
-    let step = at * T::EPSILON.cbrt();
+    let step = at * T::EPSILON.cube_root();
     let (high, low) = (at + step, at - step);
     (of(high) - of(low)) / (high - low)
 }

@@ -87,7 +87,7 @@ impl<T: Real, S: SmoothSurface<T>> SkinLaw<T, S> for LocalHertz<T> {
 
     /// From place to place by differences of the curvature over `ε^(1/3)` of the surface's extent.
     fn slope_at(&self, surface: &S, contact: &Contact<T>, normal_force: T) -> IndentationSlope<T> {
-        let step = surface.extent().radius * T::EPSILON.cbrt();
+        let step = surface.extent().radius * T::EPSILON.cube_root();
         let (e1, e2) = tangents(&contact.normal);
         let depth_at = |point: &Vector3<T>| {
             let law = self.law_at(surface, point, &surface.normal(point));

@@ -109,8 +109,8 @@ impl<T: Real> PowerLaw<T> {
         if !(normal_force > T::zero()) {
             return Indentation { depth: T::zero(), patch: [T::zero(); 2] };
         }
-        let radius = self.patch * normal_force.powf(self.patch_exponent);
-        let depth = self.depth * normal_force.powf(self.depth_exponent);
+        let radius = self.patch * normal_force.power(self.patch_exponent);
+        let depth = self.depth * normal_force.power(self.depth_exponent);
         Indentation { depth: depth.min(T::GREATEST), patch: [radius.min(T::GREATEST); 2] }
     }
 
@@ -118,6 +118,6 @@ impl<T: Real> PowerLaw<T> {
     /// exponent of 1.
     #[must_use]
     pub fn compliance(&self, normal_force: T) -> T {
-        self.depth * self.depth_exponent * normal_force.max(T::zero()).powf(self.depth_exponent - T::one())
+        self.depth * self.depth_exponent * normal_force.max(T::zero()).power(self.depth_exponent - T::one())
     }
 }

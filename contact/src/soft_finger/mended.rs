@@ -93,7 +93,7 @@ fn one_step<T: Real>(
     }
     let (e1, e2) = tangents(&n);
     // At the cube root of ε the rounding of the normal and its third derivatives weigh about the same.
-    let stride = size * T::EPSILON.cbrt();
+    let stride = size * T::EPSILON.cube_root();
     let bend = |e: &Vector3<T>| (normal(&(c + e * stride)) - normal(&(c - e * stride))) / (stride + stride);
     let (first, second) = (bend(&e1), bend(&e2));
     let steepest = larger(first.amax(), second.amax());

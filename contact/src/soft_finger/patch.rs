@@ -4,7 +4,7 @@ use fingertip_surfaces::numeric::twofold::Wide;
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::{LocalSurface, SmoothSurface, Superquadric};
 use fingertip_wrench::Real;
-use nalgebra::{ComplexField, RealField, Vector3};
+use nalgebra::Vector3;
 
 use super::three::unit;
 pub(crate) use super::three::{Three, cross, dot, exactly, plus_times, rounded};
@@ -231,8 +231,8 @@ fn superquadric<W: Wide>(point: Three<W>, shape: &Superquadric<f64>) -> Seen<W> 
     let (e1, e2) = tangents(&normal);
     let bend = shape.bend(&place, &normal, [&e1, &e2]);
     // Turned into the lines of curvature.
-    let angle = RealField::atan2(bend.m12 + bend.m21, bend.m11 - bend.m22) * 0.5;
-    let (sine, cosine) = ComplexField::sin_cos(angle);
+    let angle = Real::arctangent2(bend.m12 + bend.m21, bend.m11 - bend.m22) * 0.5;
+    let (sine, cosine) = Real::sine_and_cosine(angle);
     let around = e1 * cosine + e2 * sine;
     let [c, s] = [cosine * cosine, sine * sine];
     let mixed = (bend.m12 + bend.m21) * cosine * sine;

@@ -68,7 +68,7 @@ impl<T: Real> OnUnitSphere<T> {
         let solved = Self::new(f, m, force, power);
         let fourth = solved.squares * solved.squares;
         let in_range = (fourth >= ForceLine::least_squared()) & (fourth <= T::GREATEST);
-        (in_range & (solved.along * solved.along >= flat::<T>().powi(2) * force)).then_some(solved)
+        (in_range & (solved.along * solved.along >= flat::<T>().whole_power(2) * force)).then_some(solved)
     }
 
     /// `c`: point and normal at once.
@@ -86,7 +86,7 @@ impl<T: Real> OnUnitSphere<T> {
     /// that the numbers say.
     #[inline(always)]
     pub(crate) fn grazing(&self, f: &Vector3<T>, m: &Vector3<T>) -> Option<[Vector3<T>; 2]> {
-        let least = (T::EPSILON * T::literal(4.0)).powi(2) * self.force;
+        let least = (T::EPSILON * T::literal(4.0)).whole_power(2) * self.force;
         (self.misses && !(self.along * self.along > least)).then(|| self.pair(f, m))
     }
 

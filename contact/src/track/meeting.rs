@@ -217,7 +217,7 @@ impl<T: Real> LineMeeting<T> {
         // χ² as a Gaussian (Wilson & Hilferty 1931).
         let spread = number(2.0 / 9.0) / freedom;
         let ratio = (squares / variance / freedom).max(T::zero());
-        let excess = (ratio.powf(number(1.0 / 3.0)) - (T::one() - spread)) / spread.root();
+        let excess = (ratio.power(number(1.0 / 3.0)) - (T::one() - spread)) / spread.root();
         let point = self.origin + away;
         let covariance = inverse * variance;
         if !(is_finite(&point) && (covariance.sum() + excess).is_number()) {

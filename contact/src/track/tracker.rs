@@ -306,5 +306,5 @@ impl<T: Real> Said<T> {
 
 /// The quantile of χ² with two degrees of freedom that this share exceeds.
 fn gate_at<T: Real>(share: T) -> T {
-    -share.ln() * T::literal(2.0)
+    -share.logarithm() * T::literal(2.0)
 }

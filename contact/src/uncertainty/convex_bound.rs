@@ -165,7 +165,7 @@ impl<T: Real> ConvexBound<T> {
         let outer = inner * T::literal(1.082_392_200_292_394);
         for corner in 0..CORNERS {
             let angle = T::frac_pi_4() * T::literal(corner as f64);
-            let offset = (first * angle.cos() + second * angle.sin()) * outer;
+            let offset = (first * angle.cosine() + second * angle.sine()) * outer;
             all_hit &= region.see(surface, &origin, &offset, &u);
         }
         let (low, mut high) = (region.low?.max(-reach - height), region.high);

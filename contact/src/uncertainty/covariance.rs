@@ -250,15 +250,15 @@ impl<T: Real> ContactCovariance<T> {
         if !(probability > T::zero() && probability < T::one()) {
             return None;
         }
-        let size = (-(T::one() - probability).ln() * T::literal(2.0)).root();
+        let size = (-(T::one() - probability).logarithm() * T::literal(2.0)).root();
         let p = self.position();
         let half = T::literal(0.5);
         let (mean, apart) = ((p.m11 + p.m22) * half, (p.m11 - p.m22) * half);
         let scale = apart.abs().max(p.m12.abs()).normalising_factor();
         let (x, y) = (apart * scale, p.m12 * scale);
         let spread = (x * x + y * y).root() / scale;
-        let angle = p.m12.atan2(apart) * half;
-        let (sin, cos) = (angle.sin(), angle.cos());
+        let angle = p.m12.arctangent2(apart) * half;
+        let (sin, cos) = (angle.sine(), angle.cosine());
         let [e1, e2] = self.tangents;
         let axis = |variance: T| variance.max(T::zero()).root() * size;
         Some(ConfidenceEllipse {

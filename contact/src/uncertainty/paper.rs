@@ -123,7 +123,7 @@ impl<T: Real> PaperBounds<T> {
     /// (9): the corrected `f(q) = √((1 + 4 sin² q)² + (3 tan q)²)`; the error is `2R E f(q)`.
     #[must_use]
     pub fn obliquity(&self, angle: T) -> T {
-        let (sin, tan) = (angle.sin(), angle.tan());
+        let (sin, tan) = (angle.sine(), angle.tangent());
         let (x, y) = (T::one() + T::literal(4.0) * sin * sin, T::literal(3.0) * tan);
         (x * x + y * y).root()
     }
@@ -131,13 +131,13 @@ impl<T: Real> PaperBounds<T> {
     /// (9), sharp in the paper's frame: `tan q`.
     #[must_use]
     pub fn obliquity_sharp(&self, angle: T) -> T {
-        angle.tan().abs()
+        angle.tangent().abs()
     }
 
     /// (9), sharp over all orientations of the frame: `(tan q + sec q)/2`.
     #[must_use]
     pub fn obliquity_worst_frame(&self, angle: T) -> T {
-        (angle.tan().abs() + T::one() / angle.cos()) * T::literal(0.5)
+        (angle.tangent().abs() + T::one() / angle.cosine()) * T::literal(0.5)
     }
 }
 

@@ -263,7 +263,7 @@ impl<T: Real> BristleLaw<T> for ElastoPlastic<T> {
         } else {
             let middle = (sliding + elastic) * T::literal(0.5);
             let phase = T::pi() * (deflection - middle) / (sliding - elastic);
-            ((phase.sin() + T::one()) * T::literal(0.5)).clamp(T::zero(), T::one())
+            ((phase.sine() + T::one()) * T::literal(0.5)).clamp(T::zero(), T::one())
         }
     }
 }

@@ -131,7 +131,7 @@ impl Integrator for Exponential {
         _limit: T,
     ) -> Advanced<T, D> {
         // 1 − e^{−x}, and φ₁(x) = (1 − e^{−x})/x.
-        let fall = -(-slide).exp_m1();
+        let fall = -(-slide).exponential_less_one();
         let mean = if slide > T::LEAST_NORMAL { fall / slide } else { T::one() };
         let decay = T::one() - fall;
         Advanced {

@@ -55,7 +55,7 @@ impl<T: Real> Stribeck<T> {
         let relative = (speed / self.speed).abs();
         // Beyond this the exponential is below the rounding of any result.
         if relative < T::literal(26.0) && self.breakaway > self.kinetic {
-            self.kinetic + (self.breakaway - self.kinetic) * (-(relative * relative)).exp()
+            self.kinetic + (self.breakaway - self.kinetic) * (-(relative * relative)).exponential()
         } else {
             self.kinetic
         }

@@ -49,7 +49,7 @@ impl<T: Real> FrictionEstimate<T> {
             return T::zero();
         }
         let relative = self.deviation / self.coefficient;
-        let value = self.coefficient * (relative * T::literal(normal_quantile(probability))).exp();
+        let value = self.coefficient * (relative * T::literal(normal_quantile(probability))).exponential();
         if value.is_number() { value } else { T::zero() }
     }
 }
@@ -125,7 +125,7 @@ impl<T: Real, const N: usize> StaticFriction<T, N> {
     fn knowing(self, known: Option<(T, T)>) -> Result<Self, BadParameter> {
         match known {
             Some((log, variance))
-                if !(log.exp().is_number() && variance >= T::zero() && variance.is_number()) =>
+                if !(log.exponential().is_number() && variance >= T::zero() && variance.is_number()) =>
             {
                 Err(BadParameter {
                     parameter: "known friction",
@@ -210,7 +210,7 @@ impl<T: Real, const N: usize> StaticFriction<T, N> {
         if !(peak > T::zero() && deviation.is_number()) {
             return None;
         }
-        let measured = peak.ln();
+        let measured = peak.logarithm();
         let relative = deviation / peak;
         let uncertainty = relative * relative + self.scatter * self.scatter + T::LEAST_NORMAL;
         let mut surface_changed = false;
@@ -230,7 +230,7 @@ impl<T: Real, const N: usize> StaticFriction<T, N> {
             }
         };
         self.known = Some((log, variance));
-        let coefficient = log.exp();
+        let coefficient = log.exponential();
         Some(FrictionEstimate { coefficient, deviation: coefficient * variance.root(), surface_changed })
     }
 
@@ -238,7 +238,7 @@ impl<T: Real, const N: usize> StaticFriction<T, N> {
     #[must_use]
     pub fn estimate(&self) -> Option<FrictionEstimate<T>> {
         self.known.map(|(log, variance)| {
-            let coefficient = log.exp();
+            let coefficient = log.exponential();
             FrictionEstimate { coefficient, deviation: coefficient * variance.root(), surface_changed: false }
         })
     }

@@ -47,7 +47,8 @@ impl<T: Real> Coulomb<T> {
     #[inline]
     #[must_use]
     pub fn angle_margin(&self, force: &ContactForce<T>) -> T {
-        let angle = self.cone.coefficient.atan() - force.tangential_magnitude().atan2(force.normal);
+        let angle =
+            self.cone.coefficient.arctangent() - force.tangential_magnitude().arctangent2(force.normal);
         if angle.is_number() { angle } else { -T::frac_pi_2() }
     }
 

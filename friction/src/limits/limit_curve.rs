@@ -85,19 +85,19 @@ impl LimitCurve {
         if angle == 0.0 {
             return self.point(f64::INFINITY);
         }
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
         // The centre as tan of an angle, so that it runs over a finite range.
         let (mut low, mut high) = (0.0_f64, core::f64::consts::FRAC_PI_2);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            let point = self.point(middle.tan());
+            let point = self.point(libm::tan(middle));
             if point.force * sine < point.torque * cosine {
                 low = middle;
             } else {
                 high = middle;
             }
         }
-        self.point((0.5 * (low + high)).tan())
+        self.point(libm::tan(0.5 * (low + high)))
     }
 
     /// `count` points at even angles from pure sliding to pure spin.
@@ -171,10 +171,11 @@ fn double_exponential(low: f64, high: f64, f: impl Fn(f64) -> (f64, f64)) -> (f6
     let mut sum = (0.0, 0.0);
     for index in -56..=56 {
         let t = step * f64::from(index);
-        let argument = core::f64::consts::FRAC_PI_2 * t.sinh();
-        let weight = core::f64::consts::FRAC_PI_2 * t.cosh() / argument.cosh().powi(2);
+        let argument = core::f64::consts::FRAC_PI_2 * libm::sinh(t);
+        let width = libm::cosh(argument);
+        let weight = core::f64::consts::FRAC_PI_2 * libm::cosh(t) / (width * width);
         // The distance from the nearer end keeps its digits.
-        let from_end = half * (-argument.abs()).exp() / argument.cosh();
+        let from_end = half * libm::exp(-argument.abs()) / width;
         let x = if argument < 0.0 { low + from_end } else { high - from_end };
         let (first, second) = f(x);
         sum.0 += weight * first;

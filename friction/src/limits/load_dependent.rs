@@ -65,7 +65,7 @@ impl<T: Real> LoadDependentLimit<T> {
         if !(normal > T::zero()) {
             return T::LEAST_NORMAL;
         }
-        (self.arm * (normal / self.reference).powf(self.growth)).clamp(T::LEAST_NORMAL, T::GREATEST)
+        (self.arm * (normal / self.reference).power(self.growth)).clamp(T::LEAST_NORMAL, T::GREATEST)
     }
 
     #[inline]
@@ -133,7 +133,7 @@ impl<T: Real> FrictionModel<T> for LoadDependentLimit<T> {
         // μN − κρ ≥ δ√(μ² + κ²).
         let mu = self.cone.coefficient;
         let certain = |margin: T| {
-            let shrunk = (normal / (normal - margin)).powf(self.growth);
+            let shrunk = (normal / (normal - margin)).power(self.growth);
             mu * normal - shrunk * load >= margin * hypot(mu, shrunk)
         };
         // The frozen margin is an upper bound (κ ≥ 1); bisect below it.

@@ -158,13 +158,13 @@ impl<T: Real> PowerLimit<T> {
         if !(lesser > T::zero()) || !greater.is_number() {
             return greater + lesser;
         }
-        greater * (T::one() + (lesser / greater).powf(self.exponent)).powf(T::one() / self.exponent)
+        greater * (T::one() + (lesser / greater).power(self.exponent)).power(T::one() / self.exponent)
     }
 
     #[inline]
     fn direction(&self, force: &ContactForce<T>) -> Option<SlipDirection<T>> {
         direction(force, self.arm, |share| {
-            if share > T::zero() { share.powf(self.exponent - T::one()) } else { T::zero() }
+            if share > T::zero() { share.power(self.exponent - T::one()) } else { T::zero() }
         })
     }
 }

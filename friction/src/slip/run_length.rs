@@ -150,7 +150,7 @@ pub fn cusum_run_length(allowance: f64, threshold: f64, mean: f64) -> f64 {
         }
     }
     let shift = allowance - mean;
-    let density = |x: f64| (-0.5 * x * x).exp() / core::f64::consts::TAU.sqrt();
+    let density = |x: f64| libm::exp(-0.5 * x * x) / core::f64::consts::TAU.sqrt();
     let size = points.len();
     let matrix = nalgebra::DMatrix::from_fn(size, size, |row, column| {
         let (start, identity) = (points[row].0, f64::from(u8::from(row == column)));
@@ -171,7 +171,7 @@ fn gauss_legendre(count: u32) -> Vec<(f64, f64)> {
     let n = f64::from(count);
     (0..count)
         .map(|index| {
-            let mut x = (core::f64::consts::PI * (f64::from(index) + 0.75) / (n + 0.5)).cos();
+            let mut x = libm::cos(core::f64::consts::PI * (f64::from(index) + 0.75) / (n + 0.5));
             let mut slope = 1.0;
             for _ in 0..20 {
                 let (mut last, mut value) = (1.0, x);

@@ -60,7 +60,7 @@ impl<T: Real, F: Frame> OtherContact<T, F> {
     #[must_use]
     pub fn touches(&self, false_alarm: f64) -> bool {
         let half = self.statistic.to_f64() * 0.5;
-        let tail = nalgebra::ComplexField::exp(-half) * (1.0 + half + 0.5 * half * half);
+        let tail = Real::exponential(-half) * (1.0 + half + 0.5 * half * half);
         tail < false_alarm || !tail.is_finite()
     }
 }

@@ -176,7 +176,7 @@ impl<T: Real, S: SmoothSurface<T> + SignedDistance<T>> SmoothSurface<T> for Offs
                 }
                 Some(Corner::Tip) => (Matrix3::identity() - normal * normal.transpose()) / distance,
                 None => {
-                    let step = distance * T::EPSILON.cbrt();
+                    let step = distance * T::EPSILON.cube_root();
                     hessian_by_differences(point, step, |p| self.inner().signed_distance(p).normal)
                 }
             },

@@ -59,11 +59,11 @@ impl<T: Real> Range<T> {
         Self::between(T::one() / self.low, T::one() / self.high)
     }
 
-    pub(crate) fn powi(self, exponent: i32) -> Self {
+    pub(crate) fn whole_power(self, exponent: i32) -> Self {
         if exponent < 0 {
-            return self.powi(-exponent).reciprocal();
+            return self.whole_power(-exponent).reciprocal();
         }
-        let ends = Self::between(self.low.powi(exponent), self.high.powi(exponent));
+        let ends = Self::between(self.low.whole_power(exponent), self.high.whole_power(exponent));
         let turns = exponent > 0 && exponent % 2 == 0 && self.contains_zero();
         if turns { Self { low: ends.low.min(T::zero()), ..ends } } else { ends }
     }
@@ -78,13 +78,13 @@ impl<T: Real> Range<T> {
         Self::between(self.low.sqrt(), self.high.sqrt())
     }
 
-    pub(crate) fn cos(self) -> Self {
+    pub(crate) fn cosine(self) -> Self {
         let quarter = Self::at(T::frac_pi_2());
-        (self + quarter).sin()
+        (self + quarter).sine()
     }
 
-    pub(crate) fn sin(self) -> Self {
-        let ends = Self::between(self.low.sin(), self.high.sin());
+    pub(crate) fn sine(self) -> Self {
+        let ends = Self::between(self.low.sine(), self.high.sine());
         if self.low == self.high {
             return ends;
         }

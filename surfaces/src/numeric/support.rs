@@ -26,7 +26,7 @@ pub(crate) fn closest_approach<T: Real>(
     let second = unit_or(&line.direction.cross(&p), || any_perpendicular(&line.direction));
     let first = second.cross(&line.direction);
     let towards = |angle: T| {
-        let (sin, cos) = (angle.sin(), angle.cos());
+        let (sin, cos) = (angle.sine(), angle.cosine());
         (first * cos + second * sin, second * cos - first * sin)
     };
     let rises = |angle: T| {

@@ -1,7 +1,7 @@
 //! Numbers of twice the digits, for what cancels.
 
 use fingertip_wrench::Real;
-use nalgebra::{ComplexField, Vector3};
+use nalgebra::Vector3;
 
 /// The unevaluated sum of a number and what rounding took from it (Dekker 1971; Joldes, Muller &
 /// Popescu 2017): a relative error of about `4·ε²`, without a wider type.
@@ -97,7 +97,7 @@ pub trait Wide: Copy {
     fn over(self, other: Self) -> Self;
     fn root(self) -> Self;
     /// Of a number that is not negative, for a positive power.
-    fn powf(self, power: Self) -> Self;
+    fn power(self, power: Self) -> Self;
     fn rounded(self) -> f64;
 }
 
@@ -135,8 +135,8 @@ impl Wide for f64 {
     }
 
     #[inline]
-    fn powf(self, power: Self) -> Self {
-        ComplexField::powf(self, power)
+    fn power(self, power: Self) -> Self {
+        Real::power(self, power)
     }
 
     #[inline]
@@ -172,8 +172,8 @@ impl Wide for Twofold<f64> {
         Self::root(self)
     }
 
-    fn powf(self, power: Self) -> Self {
-        Self::powf(self, power)
+    fn power(self, power: Self) -> Self {
+        Self::power(self, power)
     }
 
     fn rounded(self) -> f64 {

@@ -1,7 +1,7 @@
 //! The cone, open at its wide end.
 
 use fingertip_wrench::{Line, Real, stored};
-use nalgebra::{ComplexField, Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
@@ -53,7 +53,7 @@ impl<T: Real> Cone<T> {
     /// [`BadShape`] unless the apex is finite, the axis has a direction and the half angle lies
     /// between 0 and π/2, by more than `√ε`.
     pub fn new(apex: Vector3<T>, axis: Vector3<T>, half_angle: T) -> Result<Self, BadShape> {
-        let (sine, cosine) = (half_angle.sin(), half_angle.cos());
+        let (sine, cosine) = (half_angle.sine(), half_angle.cosine());
         let least = T::EPSILON.root();
         BadShape::check(
             "cone",
@@ -62,7 +62,7 @@ impl<T: Real> Cone<T> {
             half_angle > T::zero() && half_angle < T::frac_pi_2() && sine >= least && cosine >= least,
         )?;
         let tangent = sine / cosine;
-        let exact = ComplexField::tan(half_angle.to_f64());
+        let exact = Real::tangent(half_angle.to_f64());
         let axis = Axis::new(
             BadShape::check_point("cone", "apex", apex)?,
             BadShape::check_direction("cone", "axis", axis)?,
@@ -221,7 +221,7 @@ impl<T: Real> Shortcuts<T> for Cone<T> {
 impl<T: Real> SmoothSurface<T> for Cone<T> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
         let axis = self.axis();
-        let (sine, cosine) = (self.half_angle().sin(), self.half_angle().cos());
+        let (sine, cosine) = (self.half_angle().sine(), self.half_angle().cosine());
         let from_apex = point - self.apex();
         let height = from_apex.dot(&axis);
         let across = from_apex - axis * height;

@@ -148,8 +148,8 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         let second = line.direction.cross(&first);
         let (s1, s2) = (stretched(&first), stretched(&second));
         let (m11, m12, m22) = (s1.norm_squared(), s1.dot(&s2), s2.norm_squared());
-        let angle = (m12 + m12).atan2(m11 - m22) * T::literal(0.5);
-        let (sin, cos) = (angle.sin(), angle.cos());
+        let angle = (m12 + m12).arctangent2(m11 - m22) * T::literal(0.5);
+        let (sin, cos) = (angle.sine(), angle.cosine());
         let axes = [first * cos + second * sin, second * cos - first * sin];
         let [u, v] = axes;
         let lengths = [length(&stretched(&u)) * scale, length(&stretched(&v)) * scale];

@@ -80,7 +80,7 @@ pub trait ImplicitSurface<T: Real> {
 
     /// Second derivatives of the value. The default takes them from differences of the gradient.
     fn hessian(&self, point: &Vector3<T>) -> Matrix3<T> {
-        let step = self.ball().1 * T::EPSILON.cbrt();
+        let step = self.ball().1 * T::EPSILON.cube_root();
         hessian_by_differences(point, step, |p| self.gradient(p))
     }
 

@@ -124,7 +124,7 @@ impl<T: Real> Outline<T> {
     /// Ascending values of τ between which Q has one sign and is monotonic, and G is convex or concave.
     fn stretches(&self) -> [T; 7] {
         let [low, high] = self.range;
-        let inflection = (-self.aside * self.discriminant / self.curvature).cbrt();
+        let inflection = (-self.aside * self.discriminant / self.curvature).cube_root();
         let inflections = roots(self.bend, self.lean, self.squared - inflection * inflection);
         let [a, b] = self.zeros().unwrap_or([low, high]);
         let [c, d] = inflections.filter(|_| inflection > T::zero()).unwrap_or([low, high]);

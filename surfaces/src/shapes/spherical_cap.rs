@@ -170,12 +170,12 @@ stored! {
         radius_m: T = cap.sphere.radius(),
         #[serde(default = "Vector3::z")] pole: Vector3<T> = cap.pole,
         #[serde(default = "half_a_turn")]
-        active_half_angle_deg: T = to_degrees(cap.least_cosine().acos()),
+        active_half_angle_deg: T = to_degrees(cap.least_cosine().arccosine()),
     },
     Sphere::new(centre_m, radius_m).and_then(|sphere| {
         let angle = active_half_angle_deg;
         let good = angle > T::zero() && angle <= half_a_turn();
         BadShape::check("sphere", "active_half_angle_deg", "above 0 and at most 180", good)?;
-        SphericalCap::new(sphere, pole, from_degrees(angle).cos())
+        SphericalCap::new(sphere, pole, from_degrees(angle).cosine())
     })
 }

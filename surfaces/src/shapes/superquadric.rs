@@ -54,11 +54,11 @@ fn norm<T: Real>(a: T, b: T, p: T) -> (T, T, T) {
         };
     }
     let (x, y) = (x / greatest, y / greatest);
-    let (power_x, power_y) = (x.powf(p), y.powf(p));
-    let value = (power_x + power_y).powf(T::one() / p);
+    let (power_x, power_y) = (x.power(p), y.power(p));
+    let value = (power_x + power_y).power(T::one() / p);
     // d/dx = (x/N)^(p−1), from powers already known where x is not tiny.
     let derivative = |x: T, signed: T| {
-        let ratio = (x / value).powf(p - T::one());
+        let ratio = (x / value).power(p - T::one());
         if x > T::zero() { ratio.copysign(signed) } else { T::zero() }
     };
     (value * greatest, derivative(x, a), derivative(y, b))
@@ -232,9 +232,9 @@ fn height_and_normal<W: Wide>(axes: &Vector3<f64>, exponents: [f64; 2], point: [
             return (zero, [zero; 2]);
         }
         let share = least.over(most);
-        let power = share.powf(p);
+        let power = share.power(p);
         let sum = one.plus(power);
-        let long = sum.powf(one.over(p));
+        let long = sum.power(one.over(p));
         let along = long.over(sum);
         let aside = if share.rounded() > 0.0 { power.over(share).times(along) } else { zero };
         (most.times(long), if swapped { [aside, along] } else { [along, aside] })
@@ -316,12 +316,12 @@ impl<T: Real> Superquadric<T> {
         let over = |a: T, b: T| if b > zero { a / b } else { zero };
         // (a/b²) for a = b^p.
         let steep =
-            |a: T, b: T, p: T| if b > T::EPSILON { a / (b * b) } else { T::EPSILON.powf(p - one - one) };
+            |a: T, b: T, p: T| if b > T::EPSILON { a / (b * b) } else { T::EPSILON.power(p - one - one) };
         let share = least / most;
         // These three do not wait for one another.
-        let (power, up, most_power) = (share.powf(inner), z.powf(outer), most.powf(outer));
+        let (power, up, most_power) = (share.power(inner), z.power(outer), most.power(outer));
         let sum = one + power;
-        let bent = if outer == inner { sum } else { sum.powf(outer * self.exponents[1] * half) };
+        let bent = if outer == inner { sum } else { sum.power(outer * self.exponents[1] * half) };
         let around = most_power * bent;
         let whole = around + up;
         let value = root_near_one(whole, inverse_outer);
@@ -363,7 +363,7 @@ fn root_near_one<T: Real>(x: T, a: T) -> T {
     let one = T::one();
     let d = x - one;
     if !(d.abs() < T::literal(1e-3)) {
-        return x.powf(a);
+        return x.power(a);
     }
     // The binomial series, of which the sixth term is less than ε/2.
     let [half, third, quarter] = [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0].map(T::literal);

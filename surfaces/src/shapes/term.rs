@@ -83,7 +83,7 @@ impl<T: Real> Term<T> {
             return Self::constant(T::one());
         }
         let factor = T::literal(f64::from(exponent));
-        self.chain(self.value.powi(exponent), self.value.powi(exponent - 1) * Range::at(factor))
+        self.chain(self.value.whole_power(exponent), self.value.whole_power(exponent - 1) * Range::at(factor))
     }
 
     /// The length of a vector: the root of the sum of squares, whose slope is known where it is zero, too.
@@ -122,20 +122,20 @@ impl<T: Real> Term<T> {
     /// The exponential.
     #[must_use]
     pub fn exp(self) -> Self {
-        let value = Range::between(self.value.low.exp(), self.value.high.exp());
+        let value = Range::between(self.value.low.exponential(), self.value.high.exponential());
         self.chain(value, value)
     }
 
     /// Sine of an angle \[rad\].
     #[must_use]
     pub fn sin(self) -> Self {
-        self.chain(self.value.sin(), self.value.cos())
+        self.chain(self.value.sine(), self.value.cosine())
     }
 
     /// Cosine of an angle \[rad\].
     #[must_use]
     pub fn cos(self) -> Self {
-        self.chain(self.value.cos(), -self.value.sin())
+        self.chain(self.value.cosine(), -self.value.sine())
     }
 
     /// The larger of two: of formulas that are negative inside, the common part of both bodies.

@@ -20,7 +20,7 @@ pub fn ball_of_triangles<T: Real>(
     let whole = f64::from(sectors);
     let mut vertices = Vec::new();
     let mut add = |x: f64, y: f64, z: f64| vertices.push(Vector3::new(x, y, z).map(T::literal));
-    let sine_and_cosine = |angle: f64| nalgebra::ComplexField::sin_cos(angle);
+    let sine_and_cosine = |angle: f64| Real::sine_and_cosine(angle);
     add(0.0, 0.0, 1.0);
     for i in 1..rings {
         let (sine, cosine) = sine_and_cosine(PI * f64::from(i) / f64::from(rings));

@@ -48,7 +48,7 @@ impl<T: Real> SurfaceLaws<T> {
             let second = line.direction.cross(&first);
             for k in 0..16_u8 {
                 let angle = T::two_pi() * T::literal(f64::from(k) / 16.0);
-                let aside = (first * angle.cos() + second * angle.sin()) * within;
+                let aside = (first * angle.cosine() + second * angle.sine()) * within;
                 let near = Line { point: line.point + aside, direction: line.direction };
                 let mut met = T::zero();
                 surface.crossings(&near, |_| met = T::one());

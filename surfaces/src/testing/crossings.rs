@@ -197,7 +197,7 @@ impl<T: Real> SurfaceLaws<T> {
 
     /// `true` if neighbouring crossings do not lie in the tangent plane.
     pub(super) fn is_tilted(&self, surface: Tried<'_, T>, line: &Line<T>, crossing: &Crossing<T>) -> bool {
-        let step = T::EPSILON.cbrt();
+        let step = T::EPSILON.cube_root();
         let first = any_perpendicular(&line.direction);
         for aside in [first, line.direction.cross(&first)] {
             let near = Line { point: line.point + aside * (step * self.radius), direction: line.direction };

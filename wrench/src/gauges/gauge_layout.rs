@@ -218,8 +218,8 @@ impl<T: Real, const N: usize> GaugeLayout<T, N> {
 
     fn strain_row(&self, gauge: &Gauge<T>) -> Vector6<T> {
         let section = &self.section;
-        let (sin_q, cos_q) = gauge.q.sin_cos();
-        let (sin_theta, cos_theta) = gauge.theta.sin_cos();
+        let (sin_q, cos_q) = gauge.q.sine_and_cosine();
+        let (sin_theta, cos_theta) = gauge.theta.sine_and_cosine();
         let along = cos_q * cos_q - self.poisson_ratio * sin_q * sin_q;
         let across = T::literal(2.0) * sin_q * cos_q;
         let lever = gauge.z * along * section.bending;
@@ -302,5 +302,5 @@ fn rosettes<T: Real, const N: usize>(q: T) -> [Gauge<T>; N] {
 pub fn isotropic_angle<T: Real>(poisson_ratio: T) -> T {
     // μ t² + 2(1+μ) t − 1 = 0, in the form that does not cancel for small μ.
     let half = T::one() + poisson_ratio;
-    (T::one() / (half + (half * half + poisson_ratio).root())).atan()
+    (T::one() / (half + (half * half + poisson_ratio).root())).arctangent()
 }

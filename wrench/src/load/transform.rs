@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use core::ops::Mul;
 
-use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use crate::stored;
@@ -127,8 +127,8 @@ impl<T: Real, To: Frame, From: Frame> RigidTransform<T, To, From> {
             return Err(TransformError::NotFinite);
         }
         // Of no angle the axis is not asked.
-        let axis = Unit::new_unchecked(scaled / length);
-        Ok(Self::from_parts(Rotation3::from_axis_angle(&axis, angle), origin))
+        let axis = scaled / length;
+        Ok(Self::from_parts(turned(&axis, angle), origin))
     }
 
     /// From a quaternion `(w, x, y, z)`, normalised here, and the origin of `From` in `To` \[m\].
@@ -196,6 +196,18 @@ impl<T: Real, A: Frame, B: Frame, C: Frame> Mul<RigidTransform<T, B, C>> for Rig
             frames: PhantomData,
         }
     }
+}
+
+/// The rotation about a unit vector by an angle \[rad\], `c·I + (1 − c)·a aᵀ + s·[a]×` (Rodrigues); of no angle the identity.
+fn turned<T: Real>(axis: &Vector3<T>, angle: T) -> Rotation3<T> {
+    if angle == T::zero() {
+        return Rotation3::identity();
+    }
+    let (sine, cosine) = angle.sine_and_cosine();
+    let mut matrix = axis * axis.transpose() * (T::one() - cosine) + (axis * sine).cross_matrix();
+    // `a²(1 − c) + c` with one rounding of a number near 1 less.
+    matrix.set_diagonal(&axis.map(|along| along * along + (T::one() - along * along) * cosine));
+    Rotation3::from_matrix_unchecked(matrix)
 }
 
 /// The rotation nearest to a matrix whose defect `RᵀR − I` is at most `√ε`; one that is rounding is left as it is.

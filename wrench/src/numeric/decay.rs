@@ -12,8 +12,8 @@ pub fn decay<T: Real>(q: T) -> (T, T) {
     if !(q > T::zero()) {
         return (T::one(), T::one());
     }
-    let left = (-q).exp();
-    let gone = -(-q).exp_m1();
+    let left = (-q).exponential();
+    let gone = -(-q).exponential_less_one();
     // Of a subnormal number the quotient is what rounding makes of 1.
     (left, (gone / q).min(T::one()))
 }

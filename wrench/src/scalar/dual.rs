@@ -14,6 +14,7 @@ impl Real for Dual64 {
     const EPSILON: Self = Self { re: f64::EPSILON, eps: 0.0 };
     const LEAST_NORMAL: Self = Self { re: f64::MIN_POSITIVE, eps: 0.0 };
     const GREATEST: Self = Self { re: f64::MAX, eps: 0.0 };
+    const CARRIES_MORE: bool = true;
 
     #[inline]
     fn literal(value: f64) -> Self {

@@ -5,11 +5,20 @@ use nalgebra::RealField;
 /// A real number: the one bound that all crates use.
 ///
 /// It adds to nalgebra's [`RealField`] what numerical code needs and that trait lacks: the
-/// rounding unit and the range as constants, literals, exact scaling by a power of two, and a
-/// square root that becomes the hardware instruction on a microcontroller.
+/// rounding unit and the range as constants, literals, exact scaling by a power of two, a
+/// square root that becomes the hardware instruction on a microcontroller, and elementary functions
+/// of which every digit is the same with and without the standard library.
+///
+/// # Elementary functions
+///
+/// nalgebra's `powf`, `exp`, `sin` and their like are those of the C library with the feature `std` and those of
+/// `libm` without; they differ in last digits, so a feature would change results. [`power`](Real::power),
+/// [`exponential`](Real::exponential), [`sine`](Real::sine) and their like are `libm`'s for `f32` and `f64` always, on
+/// every computer. The crates that need no standard library use these alone, and a test reads their sources for it.
+/// A type that overrides none has nalgebra's.
 ///
 /// `f32` and `f64` are its full citizens. It is not sealed: dual numbers (to check Jacobians) or
-/// double-double numbers (to make references) may implement it. Only the three constants and
+/// double-double numbers (to make references) may implement it. Only the first three constants and
 /// [`literal`](Real::literal) and [`to_f64`](Real::to_f64) are required.
 ///
 /// ```
@@ -22,6 +31,8 @@ use nalgebra::RealField;
 ///
 /// assert_eq!(diagonal(3e-6_f64), 1.5e-6);
 /// assert_eq!(diagonal(3e-6_f32), 1.5e-6);
+/// // A power, the same to the last bit with and without the standard library.
+/// assert_eq!(2.0_f64.power(0.5).to_bits(), 0x3ff6_a09e_667f_3bcd);
 /// // A product and what its rounding lost: (1 + ε)² = 1 + 2ε + ε².
 /// let near = 1.0 + f64::EPSILON;
 /// assert_eq!(near.two_product(near), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
@@ -37,6 +48,9 @@ pub trait Real: RealField + Copy {
     const LEAST_NORMAL: Self;
     /// Largest finite number.
     const GREATEST: Self;
+    /// Whether a number carries more than its value, as a dual number does its derivative: an iteration that ends when
+    /// the value has settled then goes on.
+    const CARRIES_MORE: bool = false;
 
     /// The number nearest to `value`.
     fn literal(value: f64) -> Self;
@@ -51,6 +65,94 @@ pub trait Real: RealField + Copy {
     #[inline]
     fn root(self) -> Self {
         self.sqrt()
+    }
+
+    /// The number to a power; NaN for a negative number and a power that is not whole.
+    #[inline]
+    fn power(self, exponent: Self) -> Self {
+        self.powf(exponent)
+    }
+
+    /// `e` to this power.
+    #[inline]
+    fn exponential(self) -> Self {
+        self.exp()
+    }
+
+    /// `e^x − 1`, with all its digits where `x` is small.
+    #[inline]
+    fn exponential_less_one(self) -> Self {
+        self.exp_m1()
+    }
+
+    /// The natural logarithm; NaN of a negative number.
+    #[inline]
+    fn logarithm(self) -> Self {
+        self.ln()
+    }
+
+    /// The cube root, which has the sign of the number.
+    #[inline]
+    fn cube_root(self) -> Self {
+        self.cbrt()
+    }
+
+    /// The sine of an angle \[rad\].
+    #[inline]
+    fn sine(self) -> Self {
+        self.sin()
+    }
+
+    /// The cosine of an angle \[rad\].
+    #[inline]
+    fn cosine(self) -> Self {
+        self.cos()
+    }
+
+    /// The tangent of an angle \[rad\].
+    #[inline]
+    fn tangent(self) -> Self {
+        self.tan()
+    }
+
+    /// The angle \[rad\] with this tangent, within a quarter turn.
+    #[inline]
+    fn arctangent(self) -> Self {
+        self.atan()
+    }
+
+    /// The angle \[rad\] of the point `(x, self)` from the first axis, within half a turn.
+    #[inline]
+    fn arctangent2(self, x: Self) -> Self {
+        self.atan2(x)
+    }
+
+    /// The angle \[rad\] with this cosine, up to half a turn; NaN beyond ±1.
+    #[inline]
+    fn arccosine(self) -> Self {
+        self.acos()
+    }
+
+    /// The sine and the cosine of an angle \[rad\].
+    #[inline]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        (self.sine(), self.cosine())
+    }
+
+    /// The number to a whole power, by squaring: each product is rounded, and a negative power is the reciprocal.
+    #[inline]
+    fn whole_power(self, exponent: i32) -> Self {
+        let (mut left, mut square, mut product) = (exponent.unsigned_abs(), self, Self::one());
+        while left > 0 {
+            if left & 1 == 1 {
+                product *= square;
+            }
+            left >>= 1;
+            if left > 0 {
+                square *= square;
+            }
+        }
+        if exponent < 0 { Self::one() / product } else { product }
     }
 
     /// A factor `k` that brings `self·k` near 1, without rounding error where the type is binary.
@@ -120,7 +222,7 @@ fn splitter_by_epsilon<T: Real>() -> T {
 }
 
 macro_rules! real {
-    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path) => {
+    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path, $($name:ident($($other:ident)?) = $function:ident),*) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
             const LEAST_NORMAL: Self = $float::MIN_POSITIVE;
@@ -141,6 +243,13 @@ macro_rules! real {
             fn root(self) -> Self {
                 $root(self)
             }
+
+            $(
+                #[inline]
+                fn $name(self $(, $other: Self)?) -> Self {
+                    libm::$function(self $(, $other)?)
+                }
+            )*
 
             #[inline]
             fn normalising_factor(self) -> Self {
@@ -164,8 +273,42 @@ macro_rules! real {
     };
 }
 
-real!(f32, 23, 0xff, 4_097.0, crate::scalar::hardware_sqrt::sqrt_f32);
-real!(f64, 52, 0x7ff, 134_217_729.0, nalgebra::ComplexField::sqrt);
+real!(
+    f32,
+    23,
+    0xff,
+    4_097.0,
+    crate::scalar::hardware_sqrt::sqrt_f32,
+    power(exponent) = powf,
+    exponential() = expf,
+    exponential_less_one() = expm1f,
+    logarithm() = logf,
+    cube_root() = cbrtf,
+    sine() = sinf,
+    cosine() = cosf,
+    tangent() = tanf,
+    arctangent() = atanf,
+    arctangent2(x) = atan2f,
+    arccosine() = acosf
+);
+real!(
+    f64,
+    52,
+    0x7ff,
+    134_217_729.0,
+    nalgebra::ComplexField::sqrt,
+    power(exponent) = pow,
+    exponential() = exp,
+    exponential_less_one() = expm1,
+    logarithm() = log,
+    cube_root() = cbrt,
+    sine() = sin,
+    cosine() = cos,
+    tangent() = tan,
+    arctangent() = atan,
+    arctangent2(x) = atan2,
+    arccosine() = acos
+);
 
 #[cfg(test)]
 mod tests {

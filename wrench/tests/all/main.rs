@@ -10,6 +10,7 @@ mod conditioning;
 mod consistency_limits;
 mod contact_frames;
 mod counted_rounding;
+mod elementary_functions;
 mod error_bounds;
 mod frames;
 mod gauge_layouts;

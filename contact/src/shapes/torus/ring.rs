@@ -192,7 +192,7 @@ impl<T: Real> Ring<T> {
             }
             // What a step leaves is its square, times as much as the equations bend.
             if size * size * self.bend <= T::EPSILON * determinant.abs() {
-                if !carries_more_than_a_value::<T>() {
+                if !T::CARRIES_MORE {
                     return Some((self.loaded(around, normal), determinant));
                 }
                 was_fine = true;
@@ -278,12 +278,6 @@ impl<T: Real> Ring<T> {
         [self.sine, self.cosine, self.common]
             .map(|[a0, a1, b1, a2, b2]| a0 + a1 * c + b1 * s + a2 * c2 + b2 * s2)
     }
-}
-
-/// Whether numbers are larger than what their value takes, as those with derivatives are.
-fn carries_more_than_a_value<T: Real>() -> bool {
-    let value = if T::EPSILON.to_f64() > f64::EPSILON { size_of::<f32>() } else { size_of::<f64>() };
-    size_of::<T>() > value
 }
 
 /// A direction turned by a small angle.

@@ -42,7 +42,7 @@ pub(super) struct At<T: Real> {
 
 impl<T: Real> Around<T> {
     fn frame(angle: T) -> (Vector3<T>, Vector3<T>) {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = angle.sine_and_cosine();
         (Vector3::new(cos, sin, T::zero()), Vector3::new(-sin, cos, T::zero()))
     }
 

@@ -193,7 +193,7 @@ impl<T: Real, C: Fn(T, [T; 2], T) -> bool> Isolation<'_, T, C> {
         let [double, single] = DEPTH;
         if halved >= if T::EPSILON.to_f64() > f64::EPSILON { single } else { double } {
             let middle = T::literal(MIDDLE_ANGLE + self.eighth as f64 * FRAC_PI_4);
-            return self.doubts.push([low, high].map(|u| middle + u.atan() * T::literal(2.0)));
+            return self.doubts.push([low, high].map(|u| middle + u.arctangent() * T::literal(2.0)));
         }
         self.halvings += 1;
         if self.halvings > HALVINGS {

@@ -102,7 +102,7 @@ impl<T: Real> ContactEvents<T> {
         let square = size * size;
         let good = square.is_number() && square >= T::LEAST_NORMAL;
         BadTrack::check(WHAT, "least force over its noise", "of ordinary size", good)?;
-        let threshold = samples.ln();
+        let threshold = samples.logarithm();
         // A Gaussian is beyond √(2h) deviations less often than once in e^h samples; two of them are compared.
         let apart = deviation * T::literal(2.0) * (threshold + threshold).root();
         Ok(Self {

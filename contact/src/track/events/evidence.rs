@@ -17,7 +17,7 @@ pub(super) fn for_load<T: Real>(magnitude: T, size: T) -> T {
         // The next term of the series is y⁴/180.
         y * y * T::literal(1.0 / 6.0)
     } else {
-        y + ((T::one() - (-(y + y)).exp()) / (y + y)).ln()
+        y + ((T::one() - (-(y + y)).exponential()) / (y + y)).logarithm()
     };
     shape - size * size * half
 }

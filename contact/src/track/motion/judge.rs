@@ -113,10 +113,11 @@ impl<T: Real> MotionJudge<T> {
         let runs = self.evidence(&tracked.velocity_in_plane(), &tracked.velocity_covariance)?;
         // Logarithms: sticking 0, rolling, and sliding with or without rolling, which are equally probable.
         let most = runs.max(T::zero());
-        let either = most + (((-most).exp() + (runs - most).exp()) * T::literal(0.5)).ln();
+        let either =
+            most + (((-most).exponential() + (runs - most).exponential()) * T::literal(0.5)).logarithm();
         let together = slides + either;
         let top = most.max(together);
-        let [stick, roll, slide] = [T::zero(), runs, together].map(|log| (log - top).exp());
+        let [stick, roll, slide] = [T::zero(), runs, together].map(|log| (log - top).exponential());
         let sum = stick + roll + slide;
         let motions = Motions { sticking: stick / sum, rolling: roll / sum, sliding: slide / sum };
         (motions.sticking + motions.rolling + motions.sliding).is_number().then_some(motions)
@@ -137,7 +138,7 @@ impl<T: Real> MotionJudge<T> {
             let inverse = Matrix2::new(scaled.m22, -scaled.m12, -scaled.m21, scaled.m11) / determinant;
             let square = unit.dot(&(inverse * unit));
             (determinant > T::zero() && (square + determinant).is_number())
-                .then(|| -(square + determinant.ln()) * half)
+                .then(|| -(square + determinant.logarithm()) * half)
         };
         Some(log(&moving)? - log(&rest)?)
     }
