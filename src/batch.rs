@@ -51,7 +51,7 @@ pub struct Touches<'a, T> {
     /// Where the environment touches \[m\]; zero without contact.
     pub point: [&'a mut [T]; 3],
     /// Normal force \[N\]: positive in contact, zero without; zero, too, where a line that misses is
-    /// [accepted](fingertip_contact::PointContact::accepting_gap).
+    /// [accepted](fingertip_contact::PointContact::with_greatest_gap).
     pub normal_force: &'a mut [T],
     /// Tangential force on the fingertip \[N\].
     pub tangential_force: [&'a mut [T]; 3],

@@ -59,18 +59,20 @@ fn every_public_trait_says_what_does_not_fit() {
     assert!(seen > 25 && without.is_empty(), "{seen} traits, without words: {without:#?}");
 }
 
-/// The library as the tests were linked with it: of those built with several sets of features the last.
-fn library(folder: &Path, name: &str) -> PathBuf {
+/// The library as `test` was linked with it: of those built with several sets of features the last before it.
+fn library(folder: &Path, name: &str, test: &Path) -> PathBuf {
     let begin = format!("lib{name}-");
+    let made = |path: &Path| fs::metadata(path).unwrap().modified().unwrap();
+    let linked = made(test);
     let mut found: Vec<_> = fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
         .filter(|path| {
             let file = path.file_name().unwrap().to_string_lossy();
-            file.starts_with(&begin) && file.ends_with(".rlib")
+            file.starts_with(&begin) && file.ends_with(".rlib") && made(path) <= linked
         })
         .collect();
-    found.sort_by_key(|path| fs::metadata(path).unwrap().modified().unwrap());
+    found.sort_by_key(|path| made(path));
     found.pop().unwrap_or_else(|| panic!("no {name} in {}", folder.display()))
 }
 
@@ -88,7 +90,7 @@ fn said_of(name: &str, program: &str) -> String {
     let output = Command::new(compiler)
         .args(["--edition", "2024", "--crate-type", "lib", "--emit", "metadata", "--color", "never"])
         .arg("--extern")
-        .arg(format!("fingertip={}", library(dependencies, "fingertip").display()))
+        .arg(format!("fingertip={}", library(dependencies, "fingertip", &test).display()))
         .arg("-L")
         .arg(format!("dependency={}", dependencies.display()))
         .arg("--out-dir")

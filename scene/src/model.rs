@@ -73,7 +73,7 @@ impl ContactSection {
 
     fn point<T: Real>(&self) -> Result<PointContact<T>, BadShape> {
         PointContact::new(T::literal(self.least_force))
-            .and_then(|model| model.accepting_gap(T::literal(self.greatest_gap_m)))
+            .and_then(|model| model.with_greatest_gap(T::literal(self.greatest_gap_m)))
             .and_then(|model| match self.greatest_friction_ratio {
                 Some(ratio) => model.with_greatest_friction(T::literal(ratio)),
                 None => Ok(model),

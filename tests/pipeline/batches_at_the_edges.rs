@@ -210,8 +210,8 @@ fn a_sphere_may_lie_anywhere() {
 /// a batch; unless friction is limited, of which it needs more than any.
 #[test]
 fn lines_that_miss_by_little_are_taken_alike() {
-    let accepting = PointContact::new(0.1).unwrap().accepting_gap(0.25).unwrap();
-    let any_gap = PointContact::new(0.1).unwrap().accepting_gap(f64::MAX).unwrap();
+    let accepting = PointContact::new(0.1).unwrap().with_greatest_gap(0.25).unwrap();
+    let any_gap = PointContact::new(0.1).unwrap().with_greatest_gap(f64::MAX).unwrap();
     let limited = accepting.with_greatest_friction(1e6).unwrap();
     let mut missed = [0; 3];
     for (index, model) in [accepting, any_gap, limited].into_iter().enumerate() {
@@ -261,7 +261,7 @@ fn lines_that_miss_by_little_are_taken_alike() {
 #[test]
 fn gaps_end_where_they_are_said_to() {
     let sphere = Sphere::centred(1.0).unwrap();
-    let accepting = |gap: f64| tip(sphere, PointContact::new(0.1).unwrap().accepting_gap(gap).unwrap());
+    let accepting = |gap: f64| tip(sphere, PointContact::new(0.1).unwrap().with_greatest_gap(gap).unwrap());
     let past = Wrench::from_force_at(&Vector3::new(0.0, 0.0, 1.25), Vector3::new(-2.0, 0.0, 0.0));
     for (gap, taken) in [(0.25, true), (0.25 - 1e-9, false), (0.25 + 1e-9, true)] {
         let tip = accepting(gap);

@@ -33,7 +33,7 @@ fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
 
 fn check<T: Real, S: ActiveSurface<T> + core::fmt::Debug>(surface: &S, numbers: &mut Numbers<'_, T>) {
     let model = PointContact::new(T::zero()).expect("zero is valid");
-    let model = model.accepting_gap(numbers.one()).unwrap_or(model);
+    let model = model.with_greatest_gap(numbers.one()).unwrap_or(model);
     let model = model.with_greatest_friction(numbers.one()).unwrap_or(model);
     let last = numbers.vector();
     for _ in 0..2 {

@@ -86,8 +86,8 @@ impl<T: Real> PointContact<T> {
     ///
     /// # Errors
     /// [`BadShape`] unless the gap is finite and not negative.
-    pub fn accepting_gap(self, greatest_gap: T) -> Result<Self, BadShape> {
-        Ok(Self { greatest_gap: check("accepted gap", greatest_gap)?, ..self })
+    pub fn with_greatest_gap(self, greatest_gap: T) -> Result<Self, BadShape> {
+        Ok(Self { greatest_gap: check("greatest gap", greatest_gap)?, ..self })
     }
 
     /// No contact needs a friction ratio above `greatest_friction`: entries that do are left out,
@@ -393,7 +393,7 @@ stored! {
         greatest_friction: Option<T> = model.greatest_friction,
     },
     PointContact::new(least_force)
-        .and_then(|model| model.accepting_gap(greatest_gap_m))
+        .and_then(|model| model.with_greatest_gap(greatest_gap_m))
         .and_then(|model| match greatest_friction {
             Some(friction) => model.with_greatest_friction(friction),
             None => Ok(model),

@@ -120,7 +120,7 @@ fn the_rules_are_the_documented_ones() {
         let friction = [None, Some(0.75), Some(5.0), Some(0.0)][random.random_range(0..4)];
         let accepted = gaps[random.random_range(0..3)];
         let last = random.random_bool(0.5).then(|| random.random_range(-1.0..1.0));
-        let mut model = PointContact::new(0.0).unwrap().accepting_gap(accepted).unwrap();
+        let mut model = PointContact::new(0.0).unwrap().with_greatest_gap(accepted).unwrap();
         if let Some(mu) = friction {
             model = model.with_greatest_friction(mu).unwrap();
         }

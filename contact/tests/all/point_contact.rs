@@ -166,7 +166,7 @@ fn near_miss_gives_point_and_gap() {
     };
     assert!((gap - 0.0001).abs() < 1e-16);
     assert!((closest - v(0.013, 0.0, 0.0)).norm() < 1e-16 && (normal - v(1.0, 0.0, 0.0)).norm() < 1e-15);
-    let tolerant = model().accepting_gap(0.0002).unwrap();
+    let tolerant = model().with_greatest_gap(0.0002).unwrap();
     let contact = *tolerant.resolve(&wrench, &tip()).contact().unwrap();
     assert_eq!((contact.gap, contact.point, contact.incidence()), (gap, closest, 0.0));
 }
@@ -286,7 +286,7 @@ fn not_finite_is_said() {
 fn thresholds_are_validated() {
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(PointContact::new(bad).is_err());
-        assert!(model().accepting_gap(bad).is_err());
+        assert!(model().with_greatest_gap(bad).is_err());
         assert!(model().with_greatest_friction(bad).is_err());
     }
 }

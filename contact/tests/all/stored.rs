@@ -6,7 +6,7 @@ use fingertip_contact::{PointContact, SoftFinger};
 #[test]
 fn models_survive_a_file() {
     let model = PointContact::new(0.1)
-        .and_then(|m| m.accepting_gap(0.001))
+        .and_then(|m| m.with_greatest_gap(0.001))
         .and_then(|m| m.with_greatest_friction(0.8))
         .unwrap();
     let written = toml::to_string(&model).unwrap();

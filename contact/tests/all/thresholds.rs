@@ -30,9 +30,9 @@ fn of_models() {
     let any = [0.0, 5e-324, 1.0, f64::MAX];
     takes(PointContact::new, &any, &BAD, "least force");
     takes(SoftFinger::new, &any, &BAD, "least force");
-    takes(|gap| point().accepting_gap(gap), &any, &BAD, "accepted gap");
+    takes(|gap| point().with_greatest_gap(gap), &any, &BAD, "greatest gap");
     takes(|mu| point().with_greatest_friction(mu), &any, &BAD, "greatest friction");
-    let full = point().accepting_gap(0.5).and_then(|m| m.with_greatest_friction(0.25)).unwrap();
+    let full = point().with_greatest_gap(0.5).and_then(|m| m.with_greatest_friction(0.25)).unwrap();
     assert_eq!((full.least_force(), full.greatest_gap(), full.greatest_friction()), (0.0, 0.5, Some(0.25)));
     let auto = Auto::new(point(), SoftFinger::new(0.0).unwrap(), Matrix6::identity()).unwrap();
     takes(

@@ -99,7 +99,7 @@ fn a_surface_with_crossings_alone_has_the_same_contacts_but_for_rounding() {
 fn a_gap_that_is_not_known_is_not_accepted_and_said() {
     let sphere = Sphere::centred(0.01).unwrap();
     let wrench = Wrench::from_force_at(&v(0.010_001, 0.0, 0.0), v(0.0, 0.0, -1.0));
-    let tolerant = PointContact::new(0.1).unwrap().accepting_gap(1e-5).unwrap();
+    let tolerant = PointContact::new(0.1).unwrap().with_greatest_gap(1e-5).unwrap();
     assert!(tolerant.resolve(&wrench, &sphere).contact().is_some());
     let unknown = tolerant.resolve(&wrench, &Forgets(sphere)).into_result().unwrap_err();
     assert_eq!(unknown, NoContact::Misses { closest: None });

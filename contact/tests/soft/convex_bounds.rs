@@ -18,7 +18,7 @@ fn convex_bound<S: ActiveSurface<f64>>(
     seed: u64,
 ) -> f64 {
     let mut random = Random::new(seed);
-    let model = PointContact::new(0.0).unwrap().accepting_gap(1.0).unwrap();
+    let model = PointContact::new(0.0).unwrap().with_greatest_gap(1.0).unwrap();
     let (mut ratios, mut silent, mut past, mut none) = (Vec::new(), 0, 0, 0);
     let mut tightest = Worst::new();
     for _ in 0..count {
@@ -138,7 +138,7 @@ fn convex_bound_holds_in_single_precision() {
         reach: f32,
     ) {
         let mut random = Random::new(48);
-        let model = PointContact::new(0.0_f32).unwrap().accepting_gap(1.0).unwrap();
+        let model = PointContact::new(0.0_f32).unwrap().with_greatest_gap(1.0).unwrap();
         let (mut none, mut ratios) = (0, Vec::new());
         let (count, rounding) = (5000, f64::from(f32::EPSILON));
         for _ in 0..count {
@@ -213,7 +213,7 @@ fn convex_bound_holds_in_single_precision() {
 fn convex_bound_holds_for_an_uncertain_shape() {
     let mut random = Random::new(47);
     let model_shape = common::ellipsoid::<f64>();
-    let model = PointContact::new(0.0).unwrap().accepting_gap(1.0).unwrap();
+    let model = PointContact::new(0.0).unwrap().with_greatest_gap(1.0).unwrap();
     let mut ratios = Vec::new();
     for _ in 0..20_000 {
         let tolerance = random.log_uniform(1e-7, 3e-4);

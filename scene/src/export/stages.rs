@@ -18,7 +18,7 @@ const MODELS: &[Row] = &[
     row(
         "point",
         "contact::PointContact<{T}>",
-        "contact::PointContact::new({least_force_N})?{?.accepting_gap({gap_m})??}\
+        "contact::PointContact::new({least_force_N})?{?.with_greatest_gap({gap_m})??}\
          {?.with_greatest_friction({greatest_friction_ratio})??}",
     ),
     row(

@@ -248,7 +248,7 @@ fn rare_keys_come_along() {
     );
     let module = Scene::from_text(&text).unwrap().to_rust(Scalar::F64, None).unwrap();
     for part in [
-        "contact::PointContact::new(0.0)?.accepting_gap(0.001)?;",
+        "contact::PointContact::new(0.0)?.with_greatest_gap(0.001)?;",
         "friction::UncertainCoulomb::new(0.5, 0.0, None)?",
     ] {
         assert!(module.contains(part), "{part}\n{module}");

@@ -196,7 +196,7 @@ fn auto_is_the_librarys() {
     let text = "[contact]\nmodel = \"auto\"\nleast_force_N = 0.1\ngreatest_gap_m = 0.0001\ngreatest_pitch_m = 0.0003\nPITCH\n";
     for (pitch, deviations) in [("", 3.0), ("pitch_deviations = 1.0", 1.0)] {
         let mut ours = pipeline(&format!("{}{NOISE}", text.replace("PITCH", pitch)));
-        let point = PointContact::new(0.1).unwrap().accepting_gap(0.0001).unwrap();
+        let point = PointContact::new(0.1).unwrap().with_greatest_gap(0.0001).unwrap();
         let noise = Matrix6::from_diagonal(&Vector6::new(1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8));
         let typed = Auto::new(point, SoftFinger::new(0.1).unwrap(), noise)
             .unwrap()

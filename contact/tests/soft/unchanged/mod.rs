@@ -101,7 +101,7 @@ where
         loads.push((wrench, last));
     }
     let point = PointContact::new(T::zero()).unwrap();
-    let gap = point.accepting_gap(number(0.002)).unwrap().with_greatest_friction(number(1.5)).unwrap();
+    let gap = point.with_greatest_gap(number(0.002)).unwrap().with_greatest_friction(number(1.5)).unwrap();
     let soft = SoftFinger::new(T::zero()).unwrap().without_friction_limit();
     let bound = SoftFinger::new(number(1e-3)).unwrap();
     let bound = bound.with_greatest_friction(number(2.0)).unwrap().with_torque_arm(number(0.004)).unwrap();

@@ -37,7 +37,7 @@ impl<'a> Wandering<'a> {
         }
         let (point, normal) = self.last;
         let moved = point + self.aside * 2e-5 + self.draw.vector() * 3e-6;
-        let found = PointContact::new(0.0).unwrap().accepting_gap(0.01).unwrap().resolve_near(
+        let found = PointContact::new(0.0).unwrap().with_greatest_gap(0.01).unwrap().resolve_near(
             &Wrench::from_force_at(&moved, -normal),
             self.surface,
             Some(&moved),
