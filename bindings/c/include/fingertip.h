@@ -406,7 +406,7 @@ typedef struct ft_finger {
     // 0 if it touches nothing or is to be left out, 1 if it touches. 2 if it feels a force that no contact explains: what it
     // bears is not known then, and the rest below is not looked at.
     uint32_t touching;
-    // What its slip detector says: a number of ft_slip; more than 3 counts as FT_NOT_PRESSING.
+    // What its slip detector says: a number of ft_slip.
     uint32_t slip;
     // Where it touches, in m.
     double point[3];

@@ -33,7 +33,7 @@ pub struct ft_finger {
     /// 0 if it touches nothing or is to be left out, 1 if it touches. 2 if it feels a force that no contact explains: what it
     /// bears is not known then, and the rest below is not looked at.
     pub touching: u32,
-    /// What its slip detector says: a number of ft_slip; more than 3 counts as FT_NOT_PRESSING.
+    /// What its slip detector says: a number of ft_slip.
     pub slip: u32,
     /// Where it touches, in m.
     pub point: [f64; 3],
@@ -105,7 +105,9 @@ impl ft_finger {
             .and_then(|friction| GraspContact::new(self.point.into(), self.normal.into(), friction))
             .map_err(|source| Fault::Contact { finger, source })?;
         let force = ContactForce::new(self.normal_force, self.tangential_force.into(), self.spin_torque);
-        Ok(FingerState::Touching(FingerSample { contact, force, slip: verdict(self.slip) }))
+        let unknown = Fault::Number { name: "slip", requirement: "that of a verdict, 0 to 3" };
+        let slip = SlipVerdict::of_number(self.slip).ok_or(unknown)?;
+        Ok(FingerState::Touching(FingerSample { contact, force, slip }))
     }
 }
 
@@ -114,15 +116,6 @@ fn friction(coefficient: f64, arm: f64) -> Result<ContactFriction<f64>, BadConta
     match arm == 0.0 {
         true => ContactFriction::point(coefficient),
         false => ContactFriction::soft(coefficient, arm),
-    }
-}
-
-fn verdict(slip: u32) -> SlipVerdict {
-    match slip {
-        1 => SlipVerdict::Holding,
-        2 => SlipVerdict::Warning,
-        3 => SlipVerdict::Slipping,
-        _ => SlipVerdict::NotPressing,
     }
 }
 

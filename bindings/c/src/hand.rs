@@ -2,10 +2,7 @@
 
 use core::ffi::c_char;
 
-use fingertip::friction::ForceNoise;
-use fingertip::hand::{
-    AnyBelief, FingerLimits, HandController, HandSettings, HandState, LearntFriction, LeastGrip,
-};
+use fingertip::hand::{AnyBelief, FingerLimits, HandController, HandSettings, HandState, LeastGrip};
 
 use crate::border::{self, Keeps, hand_out, on, place, read, read_many, told};
 use crate::fault::{Fault, ft_status};
@@ -80,9 +77,7 @@ impl ft_hand_settings {
         if self.friction_noise == 0.0 {
             return Ok(AnyBelief::default());
         }
-        let noise = ForceNoise::isotropic(self.friction_noise)?;
-        let learnt = LearntFriction::new(noise, self.friction_scatter, self.friction_probability)?;
-        Ok(AnyBelief::Learnt(learnt))
+        Ok(AnyBelief::learning(self.friction_noise, self.friction_scatter, self.friction_probability)?)
     }
 }
 
@@ -138,8 +133,8 @@ pub extern "C" fn ft_hand_settings_defaults() -> ft_hand_settings {
         greatest_ratio,
         recovery,
         friction_noise: 0.0,
-        friction_scatter: 0.05,
-        friction_probability: 0.01,
+        friction_scatter: AnyBelief::<f64>::SCATTER,
+        friction_probability: AnyBelief::<f64>::PROBABILITY,
     }
 }
 

@@ -1,9 +1,8 @@
 //! `fingertip.HandController`: how firmly each finger shall press.
 
-use fingertip::friction::{ForceNoise, SlipVerdict};
+use fingertip::friction::SlipVerdict;
 use fingertip::hand::{
     AnyBelief, FingerSample, FingerState, HandCommand, HandController, HandLoad, HandSettings, HandState,
-    LearntFriction,
 };
 use fingertip::wrench::ContactForce;
 use pyo3::prelude::*;
@@ -55,9 +54,7 @@ impl PyController {
         let belief = match learning {
             None => AnyBelief::default(),
             Some([noise, scatter, probability]) => {
-                let noise = ForceNoise::isotropic(noise).map_err(errors::hand)?;
-                let learnt = LearntFriction::new(noise, scatter, probability).map_err(errors::hand)?;
-                AnyBelief::Learnt(learnt)
+                AnyBelief::learning(noise, scatter, probability).map_err(errors::hand)?
             }
         };
         let limits = limits(least, greatest)?;
@@ -90,13 +87,9 @@ fn finger(given: &Bound<'_, PyAny>) -> PyResult<FingerState<f64>> {
         |key: &str| given.get_item(key)?.ok_or_else(|| errors::hand(format!("a finger needs `{key}`")));
     let spin = given.get_item("spin")?.map_or(Ok(0.0), |spin| spin.extract())?;
     let tangential = numbers::three(&part("tangential")?, "tangential")?;
-    let slips: u8 = given.get_item("slip")?.map_or(Ok(SlipVerdict::Holding as u8), |slip| slip.extract())?;
-    let slip = match slips {
-        0 => SlipVerdict::NotPressing,
-        1 => SlipVerdict::Holding,
-        2 => SlipVerdict::Warning,
-        _ => SlipVerdict::Slipping,
-    };
+    let slip: u32 = given.get_item("slip")?.map_or(Ok(SlipVerdict::Holding as u32), |slip| slip.extract())?;
+    let slip = SlipVerdict::of_number(slip)
+        .ok_or_else(|| errors::hand(format!("`slip` is the number of a verdict, 0 to 3, not {slip}")))?;
     Ok(FingerState::Touching(FingerSample {
         contact: contact(given)?,
         force: ContactForce::new(part("normal")?.extract()?, tangential, spin),

@@ -340,6 +340,8 @@ def test_a_controller_learns_the_friction_of_its_fingers():
     assert coefficient == pytest.approx(0.4, rel=0.05) and 0.0 < deviation < 0.05
     learning.forget_friction()
     assert learning.friction == [None] * 5
+    with pytest.raises(fingertip.HandError, match="number of a verdict, 0 to 3, not 4"):
+        trusting.command([finger(side, 0.1, 4) for side in (-1, 1)], 1e-3)
     with pytest.raises(fingertip.HandError, match="probability of less friction"):
         fingertip.HandController(friction_noise=0.01, friction_probability=0.7)
 

@@ -34,6 +34,26 @@ pub enum SlipVerdict {
 }
 
 impl SlipVerdict {
+    /// The verdict that has a number where it crosses a border to another language, which is its number here; `None` for a number
+    /// that no verdict has.
+    ///
+    /// ```
+    /// use fingertip_friction::SlipVerdict;
+    ///
+    /// assert_eq!(SlipVerdict::of_number(SlipVerdict::Slipping as u32), Some(SlipVerdict::Slipping));
+    /// assert_eq!(SlipVerdict::of_number(4), None);
+    /// ```
+    #[must_use]
+    pub const fn of_number(number: u32) -> Option<Self> {
+        Some(match number {
+            0 => Self::NotPressing,
+            1 => Self::Holding,
+            2 => Self::Warning,
+            3 => Self::Slipping,
+            _ => return None,
+        })
+    }
+
     /// The word that files and messages have for it.
     ///
     /// ```

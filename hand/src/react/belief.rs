@@ -133,6 +133,29 @@ impl<T: Real> Default for AnyBelief<T> {
 }
 
 impl<T: Real> AnyBelief<T> {
+    /// How break-away scatters on one surface, as a share, where nothing better is known.
+    pub const SCATTER: f64 = 0.05;
+    /// With what probability the friction may be less than what is relied on, where nothing better is wished.
+    pub const PROBABILITY: f64 = 0.01;
+
+    /// What slips will teach, from the standard deviation of each component of the contact force \[N\], the scatter of break-away
+    /// as a share, and the probability with which the friction may be less than what is relied on.
+    ///
+    /// # Errors
+    /// [`BadParameter`] if the noise or the scatter is negative or not finite, or the probability not between 0 and 1.
+    ///
+    /// ```
+    /// use fingertip_hand::AnyBelief;
+    ///
+    /// let belief = AnyBelief::learning(0.01, AnyBelief::<f64>::SCATTER, AnyBelief::<f64>::PROBABILITY)?;
+    /// assert!(matches!(belief, AnyBelief::Learnt(_)) && belief.estimate().is_none());
+    /// assert!(AnyBelief::learning(-0.01, 0.05, 0.01).is_err());
+    /// # Ok::<(), fingertip_friction::BadParameter>(())
+    /// ```
+    pub fn learning(noise: T, scatter: T, probability: T) -> Result<Self, BadParameter> {
+        Ok(Self::Learnt(LearntFriction::new(ForceNoise::isotropic(noise)?, scatter, probability)?))
+    }
+
     /// What slips have taught; `None` before the first, and without learning.
     #[must_use]
     pub fn estimate(&self) -> Option<FrictionEstimate<T>> {

@@ -289,6 +289,12 @@ fn what_a_hand_cannot_use_is_named() {
     refused(&[finger(0, 0.0), finger(1, 0.0), bad], ft_status::FT_BAD_NUMBER, "finger 2: the friction");
     let bad = ft_finger { touching: 3, ..finger(1, 0.0) };
     refused(&[finger(0, 0.0), finger(1, 0.0), bad], ft_status::FT_BAD_NUMBER, "`touching` must be 0, 1 or 2");
+    let bad = ft_finger { slip: 4, ..finger(1, 0.0) };
+    refused(
+        &[finger(0, 0.0), finger(1, 0.0), bad],
+        ft_status::FT_BAD_NUMBER,
+        "`slip` must be that of a verdict",
+    );
 
     let create = |settings: fingertip_c::ft_hand_settings, limits: &[ft_finger_limits], says: &str| {
         let mut hand: *mut ft_hand = ptr::null_mut();
