@@ -105,10 +105,13 @@ impl ft_finger {
             .and_then(|friction| GraspContact::new(self.point.into(), self.normal.into(), friction))
             .map_err(|source| Fault::Contact { finger, source })?;
         let force = ContactForce::new(self.normal_force, self.tangential_force.into(), self.spin_torque);
-        let unknown = Fault::Number { name: "slip", requirement: "that of a verdict, 0 to 3" };
-        let slip = SlipVerdict::of_number(self.slip).ok_or(unknown)?;
-        Ok(FingerState::Touching(FingerSample { contact, force, slip }))
+        Ok(FingerState::Touching(FingerSample { contact, force, slip: verdict(self.slip)? }))
     }
+}
+
+fn verdict(slip: u32) -> Result<SlipVerdict, Fault> {
+    let unknown = Fault::Number { name: "slip", requirement: "that of a verdict, 0 to 3" };
+    SlipVerdict::of_number(slip).ok_or(unknown)
 }
 
 /// A torque arm of zero is a point contact.
@@ -194,7 +197,7 @@ pub unsafe extern "C" fn ft_finger_from_touch(
             .and_then(|friction| GraspContact::new(touch.point.into(), touch.normal.into(), friction))
             .map_err(Fault::NoFinger)?;
         let force = ContactForce::new(touch.normal_force, touch.tangential_force.into(), touch.spin_torque);
-        let sample: FingerSample<f64, Sensor> = FingerSample { contact, force, slip: verdict(touch.slip) };
+        let sample: FingerSample<f64, Sensor> = FingerSample { contact, force, slip: verdict(touch.slip)? };
         let FingerSample { contact, force, .. } = sample.expressed_in(&pose);
         place.put(ft_finger {
             touching: TOUCHING,

@@ -142,7 +142,7 @@ impl<T: Real> AnyBelief<T> {
     /// as a share, and the probability with which the friction may be less than what is relied on.
     ///
     /// # Errors
-    /// [`BadParameter`] if the noise or the scatter is negative or not finite, or the probability not between 0 and 1.
+    /// As [`LearntFriction::new`].
     ///
     /// ```
     /// use fingertip_hand::AnyBelief;
@@ -152,7 +152,7 @@ impl<T: Real> AnyBelief<T> {
     /// assert!(AnyBelief::learning(-0.01, 0.05, 0.01).is_err());
     /// # Ok::<(), fingertip_friction::BadParameter>(())
     /// ```
-    pub fn learning(noise: T, scatter: T, probability: T) -> Result<Self, BadParameter> {
+    pub fn learning(noise: T, scatter: T, probability: f64) -> Result<Self, BadParameter> {
         Ok(Self::Learnt(LearntFriction::new(ForceNoise::isotropic(noise)?, scatter, probability)?))
     }
 
