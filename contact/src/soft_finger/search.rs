@@ -176,12 +176,13 @@ fn line_entries<T: Real, S: SmoothSurface<T>>(
     wrench: &Wrench<T>,
 ) -> [Option<Place<T>>; 4] {
     let mut entries = [None; 4];
-    let mut count = 0;
+    let mut free = entries.iter_mut();
     if let Ok(axis) = wrench.line_of_action() {
         surface.crossings(&axis.line, |crossing| {
-            if crossing.normal.dot(&axis.line.direction) < T::zero() && count < entries.len() {
-                entries[count] = problem.place(problem.inward(&crossing.point));
-                count += 1;
+            if crossing.normal.dot(&axis.line.direction) < T::zero()
+                && let Some(entry) = free.next()
+            {
+                *entry = problem.place(problem.inward(&crossing.point));
             }
         });
     }

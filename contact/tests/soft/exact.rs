@@ -80,7 +80,7 @@ impl<T: Real> Exact for Cylinder<T> {
 impl<T: Real> Exact for Cone<T> {
     fn height_and_normal(&self, point: &Big3) -> (Big, Big3) {
         let (height, across, axis) = split(point, &self.apex(), &self.axis());
-        let slope = Big::new(self.half_angle().to_f64().tan());
+        let slope = Big::new(Real::tangent(self.half_angle().to_f64()));
         let cosine = &Big::new(1.0) / &(&Big::new(1.0) + &(&slope * &slope)).sqrt();
         let slanted = minus(&unit(&across), &times(&axis, &slope));
         (&(&length(&across) - &(&height * &slope)) * &cosine, times(&slanted, &cosine))
@@ -92,7 +92,7 @@ impl<T: Real> Exact for Cone<T> {
         let rest = minus(torque, &cross(&apex, force));
         let away = if dot(force, &rest).is_positive() { dot(&rest, &axis) } else { -dot(&rest, &axis) };
         let across = minus(&rest, &times(&axis, &dot(&rest, &axis)));
-        let slope = Big::new(self.half_angle().to_f64().tan());
+        let slope = Big::new(Real::tangent(self.half_angle().to_f64()));
         (&away - &(&length(&across) * &slope)).is_positive().then_some(apex)
     }
 }
