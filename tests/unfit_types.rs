@@ -84,7 +84,7 @@ fn said_of(name: &str, program: &str) -> String {
     let file = scratch.join(format!("unfit_{name}.rs"));
     fs::write(&file, program).unwrap();
     // The compiler that stands beside cargo, which built the library.
-    let cargo = PathBuf::from(env::var_os("CARGO").unwrap());
+    let cargo = PathBuf::from(env!("CARGO"));
     let beside = cargo.with_file_name("rustc");
     let compiler = if beside.exists() { beside } else { "rustc".into() };
     let output = Command::new(compiler)
