@@ -56,7 +56,7 @@ class Tab:
     async def table(self):
         return {row[0]: row[1] for row in json.loads(await self.value(ROWS))}
 
-    async def until(self, expression, seconds=30):
+    async def until(self, expression, seconds=90):
         for _ in range(seconds * 5):
             if await self.value(expression):
                 return
