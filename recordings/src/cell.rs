@@ -3,7 +3,6 @@
 use csv::ByteRecord;
 
 use crate::layout::UsedColumn;
-use crate::plain;
 use crate::quality::Quality;
 use crate::row::RowMarks;
 
@@ -20,9 +19,9 @@ impl Cell {
     pub(super) fn read(record: &ByteRecord, used: UsedColumn) -> Self {
         let cell = record.get(used.column).unwrap_or_default();
         // The whole cell first: cells with blanks around the number are rare.
-        match plain::read(cell).or_else(|| fast_float2::parse(cell).ok()) {
-            Some(number) => Self::finite(number * used.scale),
-            None => Self::unusual(cell.trim_ascii(), used.scale),
+        match fast_float2::parse::<f64, _>(cell) {
+            Ok(number) => Self::finite(number * used.scale),
+            Err(_) => Self::unusual(cell.trim_ascii(), used.scale),
         }
     }
 

@@ -14,7 +14,6 @@ mod layout;
 #[cfg(feature = "mcap")]
 pub mod mcap;
 mod options;
-mod plain;
 mod quality;
 mod reader;
 mod row;
