@@ -104,9 +104,19 @@ impl Cells {
     /// Appends a time \[s\], rounded to nanoseconds; nothing for what is not finite.
     #[inline]
     pub(super) fn put_time(&mut self, time: f64) {
+        let room = self.room(digits::ROOM);
+        let written = room.first_chunk_mut().and_then(|to| digits::write_time(time, to));
+        self.filled -= digits::ROOM - written.unwrap_or(0);
+        if written.is_none() {
+            self.put_unusual_time(time);
+        }
+    }
+
+    /// Times that are too long to have nanoseconds, and those before the first.
+    #[inline(never)]
+    fn put_unusual_time(&mut self, time: f64) {
         if time.is_finite() {
             let rounded = (time * 1e9).round() / 1e9;
-            // Long times have no nanoseconds to round to.
             let rounded = if rounded.is_finite() { rounded } else { time };
             self.put(zmij::Buffer::new().format_finite(rounded).as_bytes());
         }
@@ -208,7 +218,8 @@ mod tests {
         {
             let mut cells = Cells::default();
             cells.put_time(time);
-            assert_eq!(core::str::from_utf8(cells.text()), Ok(text));
+            cells.put_cell(b"behind");
+            assert_eq!(core::str::from_utf8(cells.text()), Ok(&*format!("{text},behind")));
         }
         let mut cells = Cells::default();
         [f64::NAN, f64::INFINITY].iter().for_each(|time| cells.put_time(*time));

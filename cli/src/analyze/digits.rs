@@ -1,4 +1,4 @@
-//! A number as text of eight significant digits.
+//! Numbers as text: of eight significant digits, and times of nine decimals.
 
 use core::ops::Range;
 
@@ -6,6 +6,9 @@ use core::ops::Range;
 const RANGE: Range<f64> = 1e-7..9_999_999.95;
 /// Bytes that are written, of which the first are the text.
 pub(super) const ROOM: usize = 24;
+/// Below 2⁵², where half a unit can be added \[ns\].
+const LONGEST: f64 = 4.5e15;
+const ZEROS: u64 = u64::from_le_bytes([b'0'; 8]);
 
 /// How numbers of a decade are written.
 #[derive(Clone, Copy)]
@@ -84,7 +87,7 @@ pub(super) fn write_positive(number: f64, to: &mut [u8; ROOM]) -> Option<usize> 
     }
     let digits = digits(whole);
     let significant = (u64::BITS + 7 - digits.leading_zeros()) / 8;
-    let digits = digits | u64::from_le_bytes([b'0'; 8]);
+    let digits = digits | ZEROS;
     let [start, point, behind] =
         [decade.start, decade.point, decade.behind].map(|place| usize::from(place) % (ROOM - 8));
     *to.first_chunk_mut()? = *b"0.000000";
@@ -97,6 +100,38 @@ pub(super) fn write_positive(number: f64, to: &mut [u8; ROOM]) -> Option<usize> 
         return Some(point + 2);
     }
     Some(length)
+}
+
+/// Writes a time \[s\] from 0 to 4.5·10⁶ s, rounded to nanoseconds of which trailing zeros are left out, but for one behind
+/// the point, and says how many bytes its text has; `None` for what is beyond, for NaN and for the negative zero.
+///
+/// So many nanoseconds are a whole number that is exact, so that the text is the shortest that is read as this time.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number within its range"
+)]
+pub(super) fn write_time(time: f64, to: &mut [u8; ROOM]) -> Option<usize> {
+    let nanoseconds = time * 1e9 + 0.5;
+    if time.is_sign_negative() || !(nanoseconds < LONGEST) {
+        return None;
+    }
+    let nanoseconds = nanoseconds as u64;
+    let (seconds, behind) = (nanoseconds / 1_000_000_000, nanoseconds % 1_000_000_000);
+    // Seven digits at most, without the zeros before them.
+    let whole = digits(seconds);
+    let zeros = (whole.trailing_zeros() / 8).min(7);
+    *to.first_chunk_mut()? = ((whole >> (8 * zeros)) | ZEROS).to_le_bytes();
+    let point = 8 - zeros as usize;
+    let (first, last) = (behind / 10, behind % 10);
+    let first = digits(first);
+    let places = if last > 0 { 9 } else { ((u64::BITS + 7 - first.leading_zeros()) / 8).max(1) as usize };
+    let to = to.get_mut(point..)?.first_chunk_mut::<10>()?;
+    let [dot, decimals @ .., ninth] = to;
+    (*dot, *ninth) = (b'.', b'0' + last as u8);
+    *decimals = (first | ZEROS).to_le_bytes();
+    Some(point + 1 + places)
 }
 
 /// The eight decimal digits of a number below 10⁸, one in a byte, the first lowest: halves, quarters and digits are parted
@@ -115,7 +150,7 @@ const fn digits(number: u64) -> u64 {
 mod tests {
     use rand::{RngExt, SeedableRng};
 
-    use super::{ROOM, digits, write_positive};
+    use super::{ROOM, digits, write_positive, write_time};
 
     fn text(number: f64) -> Option<String> {
         let mut bytes = [0; ROOM];
@@ -156,6 +191,27 @@ mod tests {
                 assert!((0.499_999_9..0.500_000_1).contains(&off), "{text} for {number}");
                 assert_eq!(text, plain(read));
             }
+        }
+    }
+
+    #[test]
+    fn times_are_those_of_the_standard_library() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(11);
+        let ends =
+            [0.0, 4e-10, 6e-10, 1e-9, 0.1 + 0.2, 1.0, 0.999_999_999_6, 9.999_999_999, 4_499_999.999_999_999];
+        let few = (0..2000).map(|k| f64::from(k) * 1e-3);
+        let many = (0..100_000).map(|k| random.random_range(0.0..4.4) * 10.0_f64.powi(k % 16 - 9));
+        for time in ends.into_iter().chain(few).chain(many.collect::<Vec<f64>>()) {
+            let mut bytes = [0; ROOM];
+            let length = write_time(time, &mut bytes).unwrap();
+            let rounded = (time * 1e9).round() / 1e9;
+            let expected = format!("{rounded}{}", if rounded.fract() == 0.0 { ".0" } else { "" });
+            assert_eq!(core::str::from_utf8(&bytes[..length]), Ok(&*expected), "{time:e}");
+        }
+        for beyond in
+            [-1.0, -0.0, -5e-324, 4.6e6, 1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::NAN]
+        {
+            assert_eq!(write_time(beyond, &mut [0; ROOM]), None, "{beyond}");
         }
     }
 
