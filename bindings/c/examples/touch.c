@@ -1,13 +1,9 @@
 /* A wrench in, contact and grip out. */
 #include <fingertip.h>
 #include <stdio.h>
-
 static const char *scene =
-    "version = 2\n"
-    "[input]\nconvention = \"on_fingertip\"\n"
-    "[surface]\nshape = \"sphere\"\nradius_m = 0.013\n"
-    "[contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n"
-    "[friction]\nstatic_coefficient = 0.6\n"
+    "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.013\n"
+    "[contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n[friction]\nstatic_coefficient = 0.6\n"
     "[grip]\nleast_N = 0.3\ngreatest_N = 15.0\nrise_N_per_s = 200.0\nfall_N_per_s = 2.0\n";
 
 int main(void) {

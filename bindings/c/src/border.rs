@@ -206,3 +206,70 @@ pub(crate) fn free<H>(handle: *mut *mut H) {
         discard(panic);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::ffi::CStr;
+    use core::ptr::null_mut;
+
+    use super::{Keeps, free, on, told};
+    use crate::fault::{Fault, ft_status};
+    use crate::message::ft_error;
+
+    /// What panics, too, when it is dropped.
+    struct Explodes;
+
+    impl Drop for Explodes {
+        fn drop(&mut self) {
+            panic!("dropped");
+        }
+    }
+
+    struct Handle {
+        kept: ft_error,
+        number: i32,
+        #[expect(dead_code, reason = "dropped only")]
+        explodes: Option<Explodes>,
+    }
+
+    impl Keeps for Handle {
+        fn kept(&mut self) -> &mut ft_error {
+            &mut self.kept
+        }
+    }
+
+    fn text(error: &ft_error) -> &str {
+        // SAFETY: messages are closed by a zero.
+        unsafe { CStr::from_ptr(error.message.as_ptr()) }.to_str().unwrap()
+    }
+
+    /// A panic that left a function of C would end the program of whoever called it.
+    #[test]
+    fn a_panic_ends_at_the_border_and_is_told() {
+        let mut handle = Handle { kept: ft_error::none(), number: 1, explodes: None };
+        let status = on(&raw mut handle, |handle| {
+            handle.number = 2;
+            panic!("a fault of the library")
+        });
+        assert_eq!(
+            (status, handle.kept.status, handle.number),
+            (ft_status::FT_INTERNAL, ft_status::FT_INTERNAL, 2)
+        );
+        assert!(text(&handle.kept).contains("fault of this library"), "{}", text(&handle.kept));
+        // The handle can be used.
+        assert_eq!(on(&raw mut handle, |_| Ok(())), ft_status::FT_OK);
+
+        let status = on(&raw mut handle, |_| std::panic::panic_any(Explodes));
+        assert_eq!(status, ft_status::FT_INTERNAL);
+        let mut error = ft_error::none();
+        let status = told(&raw mut error, || std::panic::panic_any(Explodes));
+        assert_eq!((status, error.status), (ft_status::FT_INTERNAL, ft_status::FT_INTERNAL));
+        assert_eq!(told(null_mut(), || panic!("a fault of the library")), ft_status::FT_INTERNAL);
+        assert_eq!(told(null_mut(), || Err(Fault::Null("tip"))), ft_status::FT_NULL);
+
+        let mut held = Box::into_raw(Box::new(Handle { explodes: Some(Explodes), ..handle }));
+        free(&raw mut held);
+        assert!(held.is_null());
+        free(&raw mut held);
+    }
+}

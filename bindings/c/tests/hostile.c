@@ -87,10 +87,13 @@ static const char *const scenes[] = {
     ROW(-0.0370, 0.0001, 0.0187, 0.0004, 0.0190, -0.0005) ROW(-0.0003, -0.0201, 0.0002, -0.0194, 0.0004, -0.0197)
     "]\nrange = [-10.0, 10.0]\n[surface]\nshape = \"capsule\"\nhalf_length_m = 0.01\nradius_m = 0.008\n"
     "[contact]\nleast_force_deviations = 5.0\n",
+    HEAD "[surface]\nshape = \"sphere\"\nradius_m = 0.0095\n[contact]\nmodel = \"soft_finger\"\n[uncertainty]\nforce_noise_N = 0.01\n"
+         "torque_noise_Nm = 0.0001\n[friction]\nstatic_coefficient = 0.6\n[fusion]\nplaces = 2\nposition_deviation_m = 0.001\n"
+         "normal_deviation_N = 0.05\nrelative_deviation = 0.1\n",
     HEAD "[payload]\nmass_kg = 0.1\n[surface]\nshape = \"torus\"\nring_radius_m = 0.02\ntube_radius_m = 0.006\n"
          "[contact]\nmodel = \"soft_finger\"\n",
 };
-enum { KINDS = sizeof scenes / sizeof *scenes, HELD = 6 };
+enum { KINDS = sizeof scenes / sizeof *scenes, HELD = 10 };
 
 static ft_tip *tips[HELD];
 static ft_hand *hands[HELD];
@@ -137,7 +140,7 @@ static void some_finger(ft_finger *finger) {
     finger->tangential_force[2] = uniform(1.0);
 }
 
-static long contacts, others;
+static long contacts, others, fused;
 
 static void check_touch(const char *call, ft_status status) {
     ft_touch touch;
@@ -192,6 +195,34 @@ static void sense(void) {
     to = place();
     status = ft_beside_last(tip, to);
     check("ft_beside_last", status, sizeof(ft_beside));
+}
+
+/* What the wrench of the last sample and a tactile array say together. */
+static void fuse(void) {
+    ft_tip *tip = some_tip();
+    ft_array_reading readings[FT_MAX_PLACES + 1];
+    for (int i = 0; i <= FT_MAX_PLACES; ++i) {
+        const double up = uniform(1.0), angle = uniform(3.14159), level = sqrt(1.0 - up * up), radius = 0.0095 + uniform(1e-4);
+        readings[i] = (ft_array_reading){{radius * level * cos(angle), radius * level * sin(angle), radius * up}, 1.0 + uniform(1.0)};
+    }
+    if (once_in(4)) numbers(readings, 4 * below(FT_MAX_PLACES + 1), 0.02);
+    void *to = place();
+    const ft_status status = ft_fuse(tip, once_in(30) ? NULL : readings, some_count(1 + below(FT_MAX_PLACES)), to);
+    check("ft_fuse", status, sizeof(ft_fused));
+    if (status != FT_OK) return;
+    ft_fused told;
+    memcpy(&told, placed, sizeof told);
+    ++fused;
+    if (told.count < 1 || told.count > FT_MAX_PLACES) fail("ft_fuse", "a number of contacts that there cannot be");
+    if (!(told.disagreement >= 0.0)) fail("ft_fuse", "a disagreement that is none");
+    for (uint32_t i = 0; i < told.count; ++i) {
+        const ft_fused_contact *contact = &told.contacts[i];
+        if (contact->grip > 2) fail("ft_fuse", "a grip that there is not");
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!isfinite(contact->point[axis]) || !isfinite(contact->force[axis])) fail("ft_fuse", "a contact that is nowhere");
+            if (!(contact->force_covariance[axis][axis] >= 0.0)) fail("ft_fuse", "a variance below zero");
+        }
+    }
 }
 
 static void rest(void) {
@@ -368,6 +399,7 @@ int main(int count, char **arguments) {
             default:
                 if (once_in(5)) hand_calls();
                 else if (once_in(12)) rest();
+                else if (once_in(12)) fuse();
                 else sense();
         }
     }
@@ -375,8 +407,9 @@ int main(int count, char **arguments) {
         ft_tip_free(&tips[i]);
         ft_hand_free(&hands[i]);
     }
-    printf("%ld calls, %ld contacts, %ld samples without one, nothing found\n", calls, contacts, others);
+    printf("%ld calls, %ld contacts, %ld samples without one, %ld with an array, nothing found\n", calls, contacts, others, fused);
     /* Else the calls have tried nothing. */
     if (calls >= 10000 && (contacts < calls / 20 || others < calls / 20)) fail("hostile", "too few contacts, or too many");
+    if (calls >= 10000 && fused < calls / 1000) fail("hostile", "too few contacts with an array");
     return 0;
 }
