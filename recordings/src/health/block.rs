@@ -17,11 +17,10 @@ pub(super) struct Jump {
 
 impl Jump {
     pub(super) fn add(&mut self, at: u64, size: f64) {
-        if size.abs() > self.size.abs() {
-            *self = Self { at, size, second: self.size.abs() };
-        } else if size.abs() > self.second {
-            self.second = size.abs();
-        }
+        let (this, largest) = (size.abs(), self.size.abs());
+        let smaller = if this > largest { largest } else { this };
+        self.second = if smaller > self.second { smaller } else { self.second };
+        (self.at, self.size) = if this > largest { (at, size) } else { (self.at, self.size) };
     }
 
     fn join(&mut self, other: &Self) {
@@ -73,12 +72,8 @@ impl Cell {
         let off = reading - self.mean;
         self.mean += off / f64::from(self.count);
         self.squares += off * (reading - self.mean);
-        if reading < self.least {
-            self.least = reading;
-        }
-        if reading > self.greatest {
-            self.greatest = reading;
-        }
+        self.least = if reading < self.least { reading } else { self.least };
+        self.greatest = if reading > self.greatest { reading } else { self.greatest };
     }
 
     /// Takes a change from reading to reading for the Allan variance of single readings.

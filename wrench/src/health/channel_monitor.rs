@@ -86,12 +86,8 @@ impl<T: Real> ChannelMonitor<T> {
         if self.readings.is_multiple_of(Self::PERIOD) {
             self.patience = self.patience();
         }
-        if reading < self.least {
-            self.least = reading;
-        }
-        if reading > self.greatest {
-            self.greatest = reading;
-        }
+        self.least = if reading < self.least { reading } else { self.least };
+        self.greatest = if reading > self.greatest { reading } else { self.greatest };
         let low = if reading < self.low { reading } else { self.low };
         let high = if reading > self.high { reading } else { self.high };
         if self.held > 0 && high - low <= hold {

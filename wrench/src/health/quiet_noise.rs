@@ -55,16 +55,10 @@ impl<T: Real> QuietNoise<T> {
             let change = reading - self.last;
             let square = change * change;
             self.squares += square;
-            // Of finite readings: a comparison costs less than a least number that minds what is none.
-            if square > self.largest {
-                self.largest = square;
-            }
-            if reading < self.least {
-                self.least = reading;
-            }
-            if reading > self.greatest {
-                self.greatest = reading;
-            }
+            // Of finite readings. What is chosen by a value and not by a jump, which noise makes at random, costs least.
+            self.largest = if square > self.largest { square } else { self.largest };
+            self.least = if reading < self.least { reading } else { self.least };
+            self.greatest = if reading > self.greatest { reading } else { self.greatest };
         }
         self.last = reading;
         self.readings += 1;
