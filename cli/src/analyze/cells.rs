@@ -91,7 +91,9 @@ impl Cells {
     fn put_unusual(&mut self, number: f64) {
         let mut buffer = zmij::Buffer::new();
         let single = number as f32;
-        let text = if number == 0.0 || single.is_normal() {
+        let text = if number == 0.0 {
+            if number.is_sign_negative() { "-0.0" } else { "0.0" }
+        } else if single.is_normal() {
             buffer.format_finite(single)
         } else if number.is_finite() {
             buffer.format_finite(number)
