@@ -311,7 +311,7 @@ fn a_pseudo_terminal_that_is_pulled_is_an_error() {
     grantpt(&sensor).unwrap();
     unlockpt(&sensor).unwrap();
     let address = format!("bota://{}", ptsname(&sensor, Vec::new()).unwrap().to_str().unwrap());
-    let mut sensor = std::fs::File::from(sensor);
+    let mut sensor = File::from(sensor);
     let start = std::time::Instant::now();
     let silence = core::time::Duration::from_mins(10);
     let mut child = folder
