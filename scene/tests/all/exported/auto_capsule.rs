@@ -48,7 +48,7 @@ pub type Tip = Fingertip<
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
     let surface = surfaces::Posed::new(
-        surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?,
+        surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?,
         wrench::RigidTransform::from_matrix(
             Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
             Vector3::new(0.0, 0.0, 0.02),

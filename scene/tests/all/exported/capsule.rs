@@ -41,7 +41,7 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::Capsule::new(Vector3::new(0.03, 0.0, 0.0), Vector3::x(), 0.01, 0.007)?;
+    let surface = surfaces::Capsule::new(Vector3::new(0.03, 0.0, 0.0), Vector3::x(), 0.007, 0.01)?;
     let model = contact::PointContact::new(0.2)?.with_greatest_friction(2.0)?;
     Ok(Fingertip::builder()
         .contact(surface, model)

@@ -706,7 +706,7 @@ pub mod surface_capsule {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?;
+        let surface = surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?;
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -827,7 +827,7 @@ pub mod surface_frustum {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Frustum::new(Vector3::zeros(), Vector3::z(), 0.02, 0.012, 0.006)?;
+        let surface = surfaces::Frustum::new(Vector3::zeros(), Vector3::z(), 0.012, 0.006, 0.02)?;
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -1440,7 +1440,7 @@ pub mod surface_posed {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Posed::new(
-            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?,
+            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?,
             wrench::RigidTransform::from_matrix(
                 Matrix3::new(6.123233995736766e-17, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 6.123233995736766e-17),
                 Vector3::new(0.0, 0.0, 0.01),
@@ -1597,7 +1597,7 @@ pub mod surface_compound {
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Compound::new(
             surfaces::Sphere::new(Vector3::zeros(), 0.01)?,
-            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.012, 0.006)?,
+            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.006, 0.012)?,
         );
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
@@ -2914,9 +2914,7 @@ pub mod slip_threshold {
             .slip_detector(
                 friction::RatioThreshold::new(
                     friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?),
-                    0.5,
-                    0.8,
-                )?,
+                    0.5)?.with_warning_share(0.8)?,
             )
             .build())
     }
