@@ -53,9 +53,7 @@ pub fn tip() -> Result<Tip, BadTip> {
         .slip_detector(
             friction::RatioThreshold::new(
                 friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?),
-                0.5,
-                0.8,
-            )?,
+                0.5)?.with_warning_share(0.8)?,
         )
         .build())
 }
