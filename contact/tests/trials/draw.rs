@@ -176,7 +176,7 @@ impl<T: Real> Drawn for Capsule<T> {
             (axis * half.copysign(normal.dot(&axis)), normal)
         };
         let [half, radius] = [half, size].map(T::literal);
-        let surface = Self::new(vector(centre), vector(axis), half, radius).unwrap();
+        let surface = Self::new(vector(centre), vector(axis), radius, half).unwrap();
         (surface, centre + from + normal * size, normal)
     }
 }
