@@ -1,6 +1,6 @@
 //! The page of the book on errors quotes what the command says: each of its blocks, word for word, is what it says here.
 
-use std::fmt::Write as _;
+use core::fmt::Write as _;
 use std::path::Path;
 
 use crate::common::Folder;
