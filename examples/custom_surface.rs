@@ -30,7 +30,7 @@ impl ImplicitSurface<f64> for GelTip {
 fn main() -> Result<(), Box<dyn core::error::Error>> {
     let tip = Implicit::new(GelTip { radius: 0.010, height: 0.014 })?;
 
-    SurfaceLaws::around(Vector3::zeros(), 0.0172).roundings(256.0).check(&tip)?;
+    SurfaceLaws::around(Vector3::zeros(), 0.0172).with_roundings(256.0).check(&tip)?;
     println!("The gel tip obeys the laws of surfaces.");
 
     let model = PointContact::new(0.05)?;

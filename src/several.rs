@@ -21,7 +21,7 @@ use crate::{AnyTouch, Step, TouchSensor};
 /// }
 ///
 /// let thumb = Fingertip::builder().contact(Sphere::centred(13e-3)?, PointContact::new(0.1)?).build();
-/// let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 6e-3, 7e-3)?;
+/// let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 7e-3, 6e-3)?;
 /// let index = Fingertip::builder().contact(tip, SoftFinger::new(0.1)?).build();
 ///
 /// let push = Wrench::on_fingertip(Vector3::new(-1.0, 0.0, 0.0), Vector3::zeros());

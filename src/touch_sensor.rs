@@ -35,7 +35,7 @@ impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict> {
 /// use nalgebra::Vector3;
 ///
 /// let ball = Sphere::centred(13e-3)?;
-/// let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 6e-3, 7e-3)?;
+/// let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 7e-3, 6e-3)?;
 /// let friction = Coulomb::new(0.6)?;
 /// let mut thumb = Fingertip::builder().contact(ball, PointContact::new(0.1)?).friction(friction).build();
 /// let mut index = Fingertip::builder().contact(tip, SoftFinger::new(0.1)?).build();

@@ -85,7 +85,7 @@ fn detectors<T: Real>(criterion: &mut Criterion, scalar: &str) {
         &mut group,
         "ratio threshold",
         &samples,
-        RatioThreshold::new(gate, T::literal(0.6), T::literal(0.9)).unwrap(),
+        RatioThreshold::new(gate, T::literal(0.6)).unwrap().with_warning_share(T::literal(0.9)).unwrap(),
         step,
     );
     run(&mut group, "drop", &samples, DropDetector::new(noise).unwrap(), step);

@@ -88,7 +88,7 @@ fn run_time(c: &mut Criterion) {
          least_force_N = 0.1\n[friction]\nlimit = \"soft_finger\"\nstatic_coefficient = 0.6\ntorque_arm_m = 0.003\n",
         Fingertip::builder()
             .contact(
-                Capsule::new(Vector3::zeros(), Vector3::z(), 0.010, 0.008).unwrap(),
+                Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.010).unwrap(),
                 SoftFinger::new(0.1).unwrap()
             )
             .friction(SoftFingerLimit::new(0.6, 0.003).unwrap())

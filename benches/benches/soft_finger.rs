@@ -110,7 +110,7 @@ fn resolution(c: &mut Criterion) {
     let Ok(cylinder) = Cylinder::new(Vector3::zeros(), Vector3::new(0.2, -0.4, 1.0), 0.009) else { return };
     let Ok(plane) = Plane::new(Vector3::new(0.0, 0.0, 0.005), Vector3::new(0.1, 0.3, 1.0)) else { return };
     let Ok(cone) = Cone::new(Vector3::new(0.0, 0.0, 0.01), -Vector3::z(), 0.6) else { return };
-    let Ok(capsule) = Capsule::new(Vector3::zeros(), Vector3::z(), 0.006, 0.007) else { return };
+    let Ok(capsule) = Capsule::new(Vector3::zeros(), Vector3::z(), 0.007, 0.006) else { return };
     let Ok(superquadric) = Superquadric::new(Vector3::new(0.008, 0.010, 0.013), [0.7, 0.8]) else { return };
     let Ok(torus) = Torus::new(0.010, 0.0035) else { return };
     let Ok(capped) = CappedCylinder::new(Vector3::zeros(), Vector3::new(0.2, 0.1, 1.0), 0.007, 0.011) else {

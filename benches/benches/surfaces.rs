@@ -150,9 +150,9 @@ fn point_contact<T: Real>(c: &mut Criterion, scalar: &str) {
     shape!("cylinder", Cylinder::new(o, z, radius));
     shape!("plane", Plane::new(o, z));
     shape!("capped cylinder", CappedCylinder::new(o, z, radius, radius));
-    shape!("capsule", Capsule::new(o, z, l(0.02), radius));
+    shape!("capsule", Capsule::new(o, z, radius, l(0.02)));
     shape!("cone", Cone::new(z * l(0.02), -z, l(0.7)));
-    shape!("frustum", Frustum::new(-z * radius, z, l(0.026), radius, l(0.004)));
+    shape!("frustum", Frustum::new(-z * radius, z, radius, l(0.004), l(0.026)));
     shape!("paraboloid", Paraboloid::new([radius, l(0.02)]));
     shape!("torus", Torus::new(radius, l(0.004)));
     shape!("rounded box", RoundedBox::new(Vector3::new(l(0.013), l(0.013), l(0.013)), l(0.003)));
@@ -202,7 +202,7 @@ fn batch<T: Real>(c: &mut Criterion, scalar: &str) {
     shape!("ellipsoid", Ellipsoid::new(Vector3::new(l(0.013), l(0.011), l(0.017))));
     shape!("plane", Plane::new(Vector3::zeros(), Vector3::z()));
     shape!("cylinder", Cylinder::new(Vector3::zeros(), Vector3::z(), l(0.013)));
-    shape!("capsule", Capsule::new(Vector3::zeros(), Vector3::z(), l(0.02), l(0.013)));
+    shape!("capsule", Capsule::new(Vector3::zeros(), Vector3::z(), l(0.013), l(0.02)));
     group.finish();
 }
 
@@ -395,7 +395,7 @@ fn against_parry(c: &mut Criterion) {
         shape::Ball::new(1.0)
     );
     fn capsule<T: Real>() -> Capsule<T> {
-        Capsule::new(Vector3::zeros(), Vector3::y(), T::literal(0.5), T::literal(0.75)).unwrap()
+        Capsule::new(Vector3::zeros(), Vector3::y(), T::literal(0.75), T::literal(0.5)).unwrap()
     }
     pair!("capsule", capsule::<f32>(), capsule::<f64>(), shape::Capsule::new_y(0.5, 0.75));
     fn cylinder<T: Real>() -> CappedCylinder<T> {
@@ -403,7 +403,7 @@ fn against_parry(c: &mut Criterion) {
     }
     pair!("cylinder", cylinder::<f32>(), cylinder::<f64>(), shape::Cylinder::new(0.5, 0.75));
     fn cone<T: Real>() -> Frustum<T> {
-        Frustum::new(Vector3::y() * T::literal(-0.5), Vector3::y(), T::one(), T::literal(0.75), T::zero())
+        Frustum::new(Vector3::y() * T::literal(-0.5), Vector3::y(), T::literal(0.75), T::zero(), T::one())
             .unwrap()
     }
     pair!("cone", cone::<f32>(), cone::<f64>(), shape::Cone::new(0.5, 0.75));

@@ -74,7 +74,8 @@ mod tests {
             assert_eq!(keeping.to_bits(), bare.normal_force_keeping(&force, 0.1).to_bits());
         }
         let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01).unwrap());
-        let mut detector: Box<dyn SlipDetector<f64>> = Box::new(RatioThreshold::new(gate, 0.3, 0.8).unwrap());
+        let mut detector: Box<dyn SlipDetector<f64>> =
+            Box::new(RatioThreshold::new(gate, 0.3).unwrap().with_warning_share(0.8).unwrap());
         assert_eq!(SlipDetector::update(&mut detector, &force, 1e-3), SlipVerdict::Slipping);
         assert_eq!(SlipDetector::update_open(&mut detector, 1e-3), SlipVerdict::NotPressing);
         SlipDetector::reset(&mut detector);

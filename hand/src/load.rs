@@ -29,6 +29,11 @@ use crate::{GraspContact, Hand};
 /// assert!(load.covariance[(4, 4)] > 2.0 * 4e-4 * 0.05 * 0.05);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct UncertainWrench<T: Real, F: Frame = Hand> {
     /// The wrench.
     pub wrench: Wrench<T, F>,

@@ -122,14 +122,15 @@ fn explain<S: DeserializeOwned>(text: &str, error: &toml::de::Error) -> SceneFau
     let before = error.span().and_then(|span| text.get(..span.start));
     let line = before.map(|before| before.matches('\n').count() + 1);
     let message = error.message().replace('\n', " ");
-    let of_value = message.starts_with("invalid") || message.starts_with("unknown variant");
-    let key = if of_value { culprit::<S>(text, error.message()) } else { None };
+    let of_key =
+        ["invalid", "unknown variant", "unknown field"].iter().any(|start| message.starts_with(start));
+    let key = if of_key { culprit::<S>(text, error.message()) } else { None };
     let key = key.map_or_else(String::new, |key| format!("key `{key}`: "));
     SceneFault { line, problem: SceneProblem::Key { key, message } }
 }
 
-/// The key whose value is wrong, which serde does not tell: the one without which the complaint is
-/// another.
+/// The key that is wrong or has a wrong value, with its section, which serde does not tell: the one without
+/// which the complaint is another.
 fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
     let document: toml::Table = toml::from_str(text).ok()?;
     let complaint = |document: &toml::Table| {
@@ -139,6 +140,9 @@ fn culprit<S: DeserializeOwned>(text: &str, message: &str) -> Option<String> {
             .map(|error| error.message().to_owned())
     };
     let changed = |document: &toml::Table| complaint(document).as_deref() != Some(message);
+    if changed(&document) {
+        return None;
+    }
     // What tells the kinds of a section apart changes everything when it is gone.
     let tells_apart = |key: &str| matches!(key, "shape" | "detector" | "limit" | "law" | "kind");
     for (section, value) in &document {

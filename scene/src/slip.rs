@@ -83,7 +83,9 @@ impl SlipSection {
                     needed: "the section [friction] with `static_coefficient`",
                 })?;
                 let gate = NormalForceGate::from_noise(&noise_of(noise)?);
-                Detector::Threshold(RatioThreshold::new(gate, coefficient, T::literal(warning_share))?)
+                Detector::Threshold(
+                    RatioThreshold::new(gate, coefficient)?.with_warning_share(T::literal(warning_share))?,
+                )
             }
             Self::LikelihoodRatio { noise, false_alarms_per_minute } => {
                 let rate = sample_rate.ok_or(SceneProblem::Needs {

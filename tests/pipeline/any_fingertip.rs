@@ -16,7 +16,7 @@ fn fingers_of_different_types_answer_as_they_do_alone() {
         .friction(Coulomb::new(0.5).unwrap())
         .slip_detector(DropDetector::new(noise).unwrap())
         .build();
-    let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), 6e-3, 7e-3).unwrap();
+    let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), 7e-3, 6e-3).unwrap();
     let mut index = Fingertip::builder().contact(capsule, SoftFinger::new(0.1).unwrap()).build();
     let (mut thumb_alone, mut index_alone) = (thumb, index);
     let mut hand: [&mut dyn TouchSensor<f64>; 2] = [&mut thumb, &mut index];

@@ -41,7 +41,9 @@ where
         .solver(GaussianElimination::new(&sensor).unwrap())
         .contact(surface, model)
         .friction(Coulomb::new(T::literal(0.6)).unwrap())
-        .slip_detector(RatioThreshold::new(gate, T::literal(0.6), T::literal(0.75)).unwrap())
+        .slip_detector(
+            RatioThreshold::new(gate, T::literal(0.6)).unwrap().with_warning_share(T::literal(0.75)).unwrap(),
+        )
         .build();
     let samples: Vec<_> = signals_of_all_kinds(&sensor, 5).into_iter().map(|s| s + zero).collect();
     let mut sense_all = |samples: &[Vector6<T>]| {
@@ -240,7 +242,7 @@ fn a_payload_is_taken_off_every_sample_of_a_batch() {
             .payload(Share(share))
             .contact(Sphere::centred(0.009).unwrap(), PointContact::new(0.1).unwrap())
             .friction(Coulomb::new(0.6).unwrap())
-            .slip_detector(RatioThreshold::new(gate, 0.6, 0.75).unwrap())
+            .slip_detector(RatioThreshold::new(gate, 0.6).unwrap().with_warning_share(0.75).unwrap())
             .build();
         batch(fingertip, &samples).0
     };

@@ -27,7 +27,7 @@ fn tip(sphere: Sphere<f64>, model: PointContact<f64>) -> Tip {
         .solver(Direct)
         .contact(sphere, model)
         .friction(Coulomb::new(0.6).unwrap())
-        .slip_detector(RatioThreshold::new(gate, 0.6, 0.75).unwrap())
+        .slip_detector(RatioThreshold::new(gate, 0.6).unwrap().with_warning_share(0.75).unwrap())
         .build()
 }
 
@@ -284,12 +284,9 @@ fn frictions_out_of_range_are_answered_alike() {
             .contact(Sphere::centred(1.0).unwrap(), PointContact::new(0.0).unwrap())
             .friction(Coulomb::new(coefficient).unwrap())
             .slip_detector(
-                RatioThreshold::new(
-                    NormalForceGate::from_noise(&ForceNoise::isotropic(1e-15).unwrap()),
-                    0.6,
-                    0.75,
-                )
-                .unwrap(),
+                RatioThreshold::new(NormalForceGate::from_noise(&ForceNoise::isotropic(1e-15).unwrap()), 0.6)
+                    .and_then(|detector| detector.with_warning_share(0.75))
+                    .unwrap(),
             )
             .build();
         let wrenches: Vec<_> = presses(40).into_iter().map(|wrench| wrench * size).collect();

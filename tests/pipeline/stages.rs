@@ -300,7 +300,7 @@ fn stages_are_chosen_in_any_order() {
     let model = PointContact::new(0.1).unwrap();
     let friction = Coulomb::new(0.5).unwrap();
     let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01).unwrap());
-    let detector = RatioThreshold::new(gate, 0.5, 0.75).unwrap();
+    let detector = RatioThreshold::new(gate, 0.5).unwrap().with_warning_share(0.75).unwrap();
     let solver = GaussianElimination::new(&paper_sensor::<f64>()).unwrap();
     let zero = Tare::new(SVector::<f64, 6>::repeat(0.5));
     let one = Fingertip::builder()

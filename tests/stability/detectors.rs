@@ -118,7 +118,9 @@ pub(crate) fn rows<T: Real>(trials: usize, rows: &mut Vec<Row>) {
         "ratio threshold",
         |scale| {
             let gate = NormalForceGate::from_noise(&noise(scale)?);
-            RatioThreshold::new(gate, T::literal(0.55), T::literal(0.9)).ok()
+            RatioThreshold::new(gate, T::literal(0.55))
+                .and_then(|detector| detector.with_warning_share(T::literal(0.9)))
+                .ok()
         },
         trials,
         rows,

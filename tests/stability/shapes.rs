@@ -37,7 +37,7 @@ pub(crate) fn each<T: Real>(scale: f64, visitor: &mut impl Visitor<T>) {
     }
     let surface = Cylinder::new(o, z, l(scale)).expect("a shape");
     visitor.shape("cylinder", surface, Level::Cylinder { radius: rounded(1.0) }, scale);
-    let surface = Capsule::new(o, z, l(1.5 * scale), l(scale)).expect("a shape");
+    let surface = Capsule::new(o, z, l(scale), l(1.5 * scale)).expect("a shape");
     let level = Level::Capsule { half_length: rounded(1.5), radius: rounded(1.0) };
     visitor.shape("capsule", surface, level, scale);
     for (name, half_angle) in [("cone", 0.7), ("cone, needle", 1e-2), ("cone, flat", 1.55)] {

@@ -12,7 +12,10 @@ use fingertip_friction::{
 };
 use fingertip_hand::Hand;
 use fingertip_scenes::{Felt, Grips, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
-use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Plane, Sphere, Superquadric, Torus};
+use fingertip_surfaces::{
+    CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Frustum, Plane, RoundedBox, Sphere, Superquadric,
+    Torus,
+};
 use fingertip_wrench::{
     BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix,
     Wrench, WrenchSolver,
@@ -108,16 +111,23 @@ fn contacts() -> Result<(), Failure> {
         point_on_ellipsoid: (Ellipsoid<f32>, PointContact<f32>), point = Ellipsoid::new(axes)?;
         point_on_cylinder: (Cylinder<f32>, PointContact<f32>), point = Cylinder::new(centre, Vector3::x(), 0.009)?;
         point_on_plane: (Plane<f32>, PointContact<f32>), point = Plane::new(centre, up)?;
-        point_on_capsule: (Capsule<f32>, PointContact<f32>), point = Capsule::new(centre, up, 0.004, 0.009)?;
+        point_on_capsule: (Capsule<f32>, PointContact<f32>), point = Capsule::new(centre, up, 0.009, 0.004)?;
         point_on_cone: (Cone<f32>, PointContact<f32>), point = Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?;
         point_on_torus: (Torus<f32>, PointContact<f32>), point = Torus::new(0.01, 0.0035)?;
+        point_on_capped_cylinder: (CappedCylinder<f32>, PointContact<f32>), point = CappedCylinder::new(centre, up, 0.009, 0.012)?;
+        point_on_frustum: (Frustum<f32>, PointContact<f32>), point = Frustum::new(up * -0.012, up, 0.012, 0.005, 0.024)?;
+        point_on_rounded_box: (RoundedBox<f32>, PointContact<f32>), point = RoundedBox::new(axes, 0.004)?;
+        point_on_superquadric: (Superquadric<f32>, PointContact<f32>), point = Superquadric::new(axes, [0.7, 0.8])?;
         soft_on_sphere: (Sphere<f32>, SoftFinger<f32>), soft = Sphere::centred(0.013)?;
         soft_on_ellipsoid: (Ellipsoid<f32>, SoftFinger<f32>), soft = Ellipsoid::new(axes)?;
         soft_on_superquadric: (Superquadric<f32>, SoftFinger<f32>), soft = Superquadric::new(axes, [0.7, 0.8])?;
     }
     shapes! { twists;
         soft_on_cylinder: (Cylinder<f32>, SoftFinger<f32>), soft = Cylinder::new(centre, Vector3::x(), 0.009)?;
-        soft_on_capsule: (Capsule<f32>, SoftFinger<f32>), soft = Capsule::new(centre, up, 0.004, 0.009)?;
+        soft_on_capsule: (Capsule<f32>, SoftFinger<f32>), soft = Capsule::new(centre, up, 0.009, 0.004)?;
+        soft_on_capped_cylinder: (CappedCylinder<f32>, SoftFinger<f32>), soft = CappedCylinder::new(centre, up, 0.009, 0.012)?;
+        soft_on_frustum: (Frustum<f32>, SoftFinger<f32>), soft = Frustum::new(up * -0.012, up, 0.012, 0.005, 0.024)?;
+        soft_on_rounded_box: (RoundedBox<f32>, SoftFinger<f32>), soft = RoundedBox::new(axes, 0.004)?;
         soft_on_cone: (Cone<f32>, SoftFinger<f32>), soft = Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?;
     }
     shapes! { ring_touches;
@@ -143,7 +153,7 @@ fn friction() -> Result<(), Failure> {
     >| s.slip_margin(f));
     count!(
         ratio_threshold,
-        RatioThreshold::new(gate, 0.6, 0.75)?,
+        RatioThreshold::new(gate, 0.6)?.with_warning_share(0.75)?,
         RatioThreshold<f32>,
         forces,
         |s, f: ContactForce<f32>| s.update(f, 1e-3)

@@ -267,7 +267,9 @@ impl PyIncipient {
         let (noise, window, warning_share) = made;
         let noise = ForceNoise::isotropic(noise).map_err(errors::friction)?;
         let gate = NormalForceGate::from_noise(&noise);
-        let watch = IncipientSlip::new(gate, window, warning_share).map_err(errors::friction)?;
+        let watch = IncipientSlip::new(gate, window)
+            .and_then(|detector| detector.with_warning_share(warning_share))
+            .map_err(errors::friction)?;
         Ok(Self { watch, made })
     }
 }

@@ -17,7 +17,7 @@ const LEAST_FORCE: f64 = 0.02;
 const PROBABILITY: f64 = 0.95;
 /// The number of a reason that the page has no words for.
 const OTHER: u32 = 5;
-/// Instructions per contact, counted on x86-64.
+/// Instructions per contact, counted on x86-64 in f32.
 const COUNTS: &str = include_str!("../../../benches/instructions.txt");
 
 /// What can be set, in the order of their numbers.
@@ -272,9 +272,8 @@ fn number_of(reason: &NoContact<f64>) -> u32 {
     }
 }
 
-/// Instructions of a contact on a shape, where they were counted.
+/// Instructions of a contact on a shape, as the table has them.
 fn instructions(number: u32, is_soft: bool) -> Option<f64> {
-    let [point, soft] = shape::counted(number);
-    let name = if is_soft { soft } else { point }?;
-    COUNTS.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(' ')?.parse().ok())
+    let (model, name) = (if is_soft { "soft_on_" } else { "point_on_" }, shape::counted(number)?);
+    COUNTS.lines().find_map(|line| line.strip_prefix(model)?.strip_prefix(name)?.strip_prefix(' ')?.parse().ok())
 }

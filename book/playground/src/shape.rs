@@ -47,21 +47,25 @@ pub(crate) fn shape(number: u32) -> Option<Result<Shape, BadShape>> {
         1 => Ellipsoid::new(Vector3::new(8e-3, 10e-3, 14e-3)).map(Shape::Ellipsoid),
         2 => Capsule::new(origin, up, 8e-3, 8e-3).map(Shape::Capsule),
         3 => CappedCylinder::new(origin, up, 9e-3, 12e-3).map(Shape::CappedCylinder),
-        4 => Frustum::new(up * -12e-3, up, 24e-3, 12e-3, 5e-3).map(Shape::Frustum),
+        4 => Frustum::new(up * -12e-3, up, 12e-3, 5e-3, 24e-3).map(Shape::Frustum),
         5 => RoundedBox::new(Vector3::new(9e-3, 11e-3, 13e-3), 4e-3).map(Shape::RoundedBox),
         6 => Superquadric::new(Vector3::new(9e-3, 10e-3, 13e-3), [0.6, 0.7]).map(Shape::Superquadric),
         _ => return None,
     })
 }
 
-/// Its name in `benches/instructions.txt`, where a contact on it was counted: of a point contact, and of a soft finger.
-pub(crate) fn counted(number: u32) -> [Option<&'static str>; 2] {
-    match number {
-        0 => [Some("point_on_sphere"), Some("soft_on_sphere")],
-        1 => [Some("point_on_ellipsoid"), Some("soft_on_ellipsoid")],
-        2 => [Some("point_on_capsule"), None],
-        _ => [None, None],
-    }
+/// Its name in `benches/instructions.txt`, behind `point_on_` and `soft_on_`.
+pub(crate) fn counted(number: u32) -> Option<&'static str> {
+    Some(match number {
+        0 => "sphere",
+        1 => "ellipsoid",
+        2 => "capsule",
+        3 => "capped_cylinder",
+        4 => "frustum",
+        5 => "rounded_box",
+        6 => "superquadric",
+        _ => return None,
+    })
 }
 
 /// Where a line first enters a surface.

@@ -31,6 +31,7 @@ fn every_shape_is_found_where_it_is_touched() {
             let [normal, tangential, ..] = play.felt[Felt::Parts as usize..] else { panic!("no parts") };
             assert!((normal - 2.0).abs() < 1e-6 && (tangential - 0.5).abs() < 1e-6, "{normal} {tangential}");
             assert!(play.felt[Felt::SemiAxes as usize] > 1e-6, "shape {number}, model {model}: no ellipse");
+            assert!(play.felt[Felt::Instructions as usize] > 50.0, "shape {number}, model {model}: not counted");
             assert!(play.net.len() == (shape::ROWS + 1) * shape::COLUMNS * 3);
             assert!(play.net.iter().all(|number| number.is_finite()), "shape {number}");
         }

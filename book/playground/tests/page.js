@@ -21,6 +21,7 @@
       put("model", model);
       if (verdict.dataset.told !== "0" || !(+verdict.dataset.mistake < 1e-7))
         say(`shape ${shape}, model ${model}: ${verdict.textContent} off by ${verdict.dataset.mistake} m`);
+      if (!(parseInt(cell(7)) > 50)) say(`shape ${shape}, model ${model}: takes ${cell(7)} instructions`);
     }
     put("shape", 0);
     put("model", 0);

@@ -96,7 +96,7 @@
       ["normal, sideways, spin", found ? `${number(normal)}\u202fN, ${number(sideways)}\u202fN, ${number(spin * mm)}\u202fN·mm` : "–"],
       ["margin to slip", found ? number(margin) + "\u202fN" : "–"],
       ["95 % of single samples within", found ? `${number(tip.value(19) * mm)} × ${number(tip.value(20) * mm)}\u202fmm` : "–"],
-      ["instructions of the contact", Number.isFinite(counted) ? counted + " (x86-64, counted)" : "not counted for this choice"],
+      ["instructions of the contact", Number.isFinite(counted) ? counted + " (x86-64, f32)" : "–"],
     ];
     rows.replaceChildren(...lines.map(cells => {
       const row = document.createElement("tr");
@@ -182,7 +182,8 @@
     [10, 20, 30, 40, 50, 60, 70, 80].forEach(q => ink.fillText(q + "°", x(q), foot + 16));
     ink.fillText("angle Q of the gauges", (left + wide) / 2, foot + 32);
     ink.textAlign = "left";
-    ink.fillText("N_c", 2, (top + foot) / 2);
+    ink.font = "italic 13px system-ui, sans-serif"; ink.fillText("N", 2, (top + foot) / 2);
+    ink.font = "10px system-ui, sans-serif"; ink.fillText("c", 12, (top + foot) / 2 + 4);
     ink.strokeStyle = style.getPropertyValue("--contact");
     ink.lineWidth = 2;
     ink.beginPath();
@@ -193,7 +194,7 @@
     }
     ink.stroke();
     const here = condition(layout.q);
-    of("condition").textContent = Number.isFinite(here) ? `Condition number N_c = ${here.toFixed(2)}.` : "These gauges make no sensor.";
+    of("condition").textContent = Number.isFinite(here) ? `The condition number is ${here.toFixed(2)}.` : "These gauges make no sensor.";
     of("condition").dataset.number = here;
     if (here <= most) {
       ink.fillStyle = style.getPropertyValue("--force");

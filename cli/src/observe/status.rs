@@ -110,24 +110,23 @@ mod tests {
     fn the_message_of_ros_names_every_status() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../bridges/ros/fingertip_msgs/msg/Touch.msg");
         let text = std::fs::read_to_string(path).unwrap();
-        let all = [
-            Status::Contact,
-            Status::BelowThreshold,
-            Status::Misses,
-            Status::OnlyPulling,
-            Status::OutsideActiveRegion,
-            Status::NotFinite,
-            Status::BeyondFriction,
-            Status::Other,
-            Status::Rest,
-            Status::Saturated,
-            Status::Uncalibrated,
-            Status::UnusableRow,
-        ];
-        for status in all {
+        for status in Status::ALL {
             let word = status.word();
             let named = [format!("\"{word}\""), format!(" {word},"), format!(" {word}.")];
             assert!(named.iter().any(|named| text.contains(named)), "{word}");
         }
+    }
+
+    #[test]
+    fn the_page_of_errors_explains_every_status_but_a_contact_and_no_other() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../book/src/how-to/errors.md");
+        let text = std::fs::read_to_string(path).unwrap();
+        let (_, table) = text.split_once("| `status` |").unwrap();
+        let rows = table.lines().skip(2).take_while(|line| line.starts_with("| `"));
+        let mut explained: Vec<_> = rows.map(|row| row.split('`').nth(1).unwrap()).collect();
+        let mut all: Vec<_> = Status::ALL[1..].iter().map(|status| status.word()).collect();
+        explained.sort_unstable();
+        all.sort_unstable();
+        assert_eq!(explained, all);
     }
 }

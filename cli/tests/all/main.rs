@@ -12,6 +12,7 @@ mod common;
 mod conversions;
 mod demo;
 mod design;
+mod errors_page;
 mod exports;
 mod fused;
 mod hand;

@@ -57,7 +57,7 @@ fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftCon
 fn on_capsule_finely<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     finely(on_capsule(shape, wrench), spins_little(wrench, shape.radius()), wrench, |wrench| {
         let [half, radius] = [shape.half_length(), shape.radius()].map(Real::to_f64);
-        let double = Capsule::new(wide(&shape.centre()), wide(&shape.axis()), half, radius);
+        let double = Capsule::new(wide(&shape.centre()), wide(&shape.axis()), radius, half);
         double.ok().map(|double| on_capsule(&double, wrench))
     })
 }

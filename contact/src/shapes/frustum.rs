@@ -184,7 +184,7 @@ soft_finger!(
         on_frustum_finely(shape, wrench, || {
             let [height, base, top] =
                 [shape.height(), shape.base_radius(), shape.top_radius()].map(Real::to_f64);
-            Frustum::new(wide(&shape.base_centre()), wide(&shape.axis()), height, base, top).ok()
+            Frustum::new(wide(&shape.base_centre()), wide(&shape.axis()), base, top, height).ok()
         }),
         visit
     ),

@@ -17,7 +17,7 @@ use super::three::unit;
 /// use nalgebra::Vector3;
 ///
 /// // A capsule of 8 mm radius and 20 mm between its centres: a ball at its tip, a cylinder at its side.
-/// let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?;
+/// let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?;
 /// let tip: Patch = capsule.patch(&Vector3::new(0.0, 0.0, 0.018)).ok_or("not known")?;
 /// let side = capsule.patch(&Vector3::new(0.008, 0.0, 0.0)).ok_or("not known")?;
 /// assert!(matches!(tip.surface, LocalSurface::Ball { .. }) && matches!(side.surface, LocalSurface::Cone { .. }));

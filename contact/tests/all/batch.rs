@@ -171,7 +171,7 @@ batches!(small_sphere, Sphere::new(v(0.1, -0.2, 0.1), T::literal(0.4)), true);
 batches!(plane, Plane::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0)), true);
 batches!(cylinder, Cylinder::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::one()), true);
 batches!(ellipsoid, Ellipsoid::new(v(1.0, 0.8, 0.6)), false);
-batches!(capsule, Capsule::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::literal(0.5), T::literal(0.6)), false);
+batches!(capsule, Capsule::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::literal(0.6), T::literal(0.5)), false);
 
 /// The tests above have spheres of about one metre: here of a fingertip's size, and a building's, away from the origin.
 #[test]
@@ -249,7 +249,7 @@ fn what_pulls_at_a_plane_is_no_certain_contact() {
 #[test]
 fn the_gap_of_a_capsule_is_the_distance_of_its_axis() {
     let mut random = Pcg64Mcg::seed_from_u64(15);
-    let capsule = Capsule::new(v(0.1, -0.2, 0.3), v::<f64>(1.0, 2.0, 3.0), 0.5, 0.3).unwrap();
+    let capsule = Capsule::new(v(0.1, -0.2, 0.3), v::<f64>(1.0, 2.0, 3.0), 0.3, 0.5).unwrap();
     let mut missed = 0;
     for _ in 0..500 {
         let mut vector = |size: f64| Vector3::<f64>::from_fn(|_, _| random.random_range(-size..size));

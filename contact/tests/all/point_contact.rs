@@ -204,7 +204,7 @@ fn an_edge_is_pressed_or_missed_by_a_hair() {
     fn check<T: Real>() {
         let z = Vector3::z();
         let shaft = CappedCylinder::new(Vector3::zeros(), z, T::one(), T::literal(0.5)).unwrap();
-        let stump = Frustum::new(z * T::literal(-0.5), z, T::one(), T::literal(1.5), T::one()).unwrap();
+        let stump = Frustum::new(z * T::literal(-0.5), z, T::literal(1.5), T::one(), T::one()).unwrap();
         let block = RoundedBox::new(v(0.8, 0.6, 0.5).map(T::literal), T::zero()).unwrap();
         let model = PointContact::new(T::zero()).unwrap();
         let mut random = Pcg64Mcg::seed_from_u64(31);

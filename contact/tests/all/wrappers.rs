@@ -56,7 +56,7 @@ fn a_wrapper_changes_no_bit_of_a_contact() {
     check(Ellipsoid::new(v(0.012, 0.008, 0.01)).unwrap());
     check(Cylinder::new(v(0.0, 0.0, 0.0), v(1.0, 2.0, 3.0), 0.009).unwrap());
     check(CappedCylinder::new(v(0.0, 0.0, 0.0), v(1.0, 2.0, 3.0), 0.009, 0.008).unwrap());
-    check(Capsule::new(v(0.0, 0.0, 0.0), v(1.0, 2.0, 3.0), 0.006, 0.008).unwrap());
+    check(Capsule::new(v(0.0, 0.0, 0.0), v(1.0, 2.0, 3.0), 0.008, 0.006).unwrap());
     check(Plane::new(v(0.0, 0.0, 0.003), v(1.0, -2.0, 3.0)).unwrap());
 }
 

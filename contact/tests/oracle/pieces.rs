@@ -81,7 +81,7 @@ fn capsule<T: Real>() -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<Capsule<T>> {
             let z = half * random.random_range(-0.99..0.99);
             (n * r + Vector3::z() * z, n, round([1.0, 1.0, 0.0], [0.0; 3], r))
         };
-        let surface = Capsule::new(Vector3::zeros(), Vector3::z(), T::literal(half), T::literal(r)).unwrap();
+        let surface = Capsule::new(Vector3::zeros(), Vector3::z(), T::literal(r), T::literal(half)).unwrap();
         Case { surface, quadric, point, normal, size: 2.0 * (r + half) }
     }
 }
@@ -117,9 +117,9 @@ fn frustum<T: Real>(least_ratio: f64) -> impl FnMut(&mut Pcg64Mcg, f64) -> Case<
         let surface = Frustum::new(
             Vector3::zeros(),
             Vector3::z(),
-            T::literal(height),
             T::literal(base),
             T::literal(top),
+            T::literal(height),
         )
         .unwrap();
         Case { surface, quadric, point, normal, size: height.max(2.0 * base) }

@@ -227,7 +227,7 @@ fn revolutions_that_bend_inward_obey_the_laws() {
     fn check<T: Real, const N: usize>(points: [[f64; 2]; N]) {
         let [low, high] = [points[0][0], points[N - 1][0]];
         let centre = Vector3::new(0.0, 0.0, 0.5 * (low + high)).map(T::literal);
-        let laws = SurfaceLaws::around(centre, T::literal(1.0)).with_edges().lines(400);
+        let laws = SurfaceLaws::around(centre, T::literal(1.0)).with_edges().with_lines(400);
         let make = |scale: T| {
             Revolution::from_profile(points.map(|point| point.map(|x| T::literal(x) * scale))).ok()
         };

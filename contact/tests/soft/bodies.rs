@@ -78,7 +78,7 @@ fn capped() -> CappedCylinder<f64> {
 }
 
 fn frustum(base: f64, top: f64) -> Frustum<f64> {
-    Frustum::new(Vector3::new(0.001, 0.0, -0.008), Vector3::new(0.1, 0.1, 1.0), 0.016, base, top).unwrap()
+    Frustum::new(Vector3::new(0.001, 0.0, -0.008), Vector3::new(0.1, 0.1, 1.0), base, top, 0.016).unwrap()
 }
 
 #[test]
@@ -402,7 +402,7 @@ fn a_pure_force_that_misses_a_mesh_has_no_contact() {
 #[test]
 fn a_capsule_is_grazed_at_the_end_that_is_passed() {
     let (half, radius) = (0.01, 0.005);
-    let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), half, radius).unwrap();
+    let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), radius, half).unwrap();
     for end in [1.0, -1.0] {
         let ball = Sphere::new(Vector3::z() * (end * half), radius).unwrap();
         let passing = Vector3::new(0.0, 1e-4, end * (half + 1.1 * radius));

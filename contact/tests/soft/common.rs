@@ -63,8 +63,8 @@ pub(crate) fn capsule<T: Real>() -> Capsule<T> {
     Capsule::new(
         Vector3::zeros(),
         Vector3::new(number(0.3), number(0.1), number(1.0)),
-        number(0.006),
         number(0.007),
+        number(0.006),
     )
     .unwrap()
 }
@@ -125,13 +125,13 @@ pub(crate) fn closed_elliptic_cylinder<T: Real>() -> EllipticCylinder<T> {
 
 pub(crate) fn frustum<T: Real>() -> Frustum<T> {
     let (base, axis) = (vector(0.001, 0.0, -0.008), vector(0.1, 0.2, 1.0));
-    Frustum::new(base, axis, T::literal(0.016), T::literal(0.010), T::literal(0.006)).unwrap()
+    Frustum::new(base, axis, T::literal(0.010), T::literal(0.006), T::literal(0.016)).unwrap()
 }
 
 /// A closed cone.
 pub(crate) fn spike<T: Real>() -> Frustum<T> {
     let (base, axis) = (vector(0.001, 0.0, -0.008), vector(0.1, 0.1, 1.0));
-    Frustum::new(base, axis, T::literal(0.016), T::literal(0.009), T::zero()).unwrap()
+    Frustum::new(base, axis, T::literal(0.009), T::zero(), T::literal(0.016)).unwrap()
 }
 
 const GEL_TIP: [[f64; 2]; 5] =
@@ -280,7 +280,7 @@ impl Widen for Capsule<f32> {
     type Double = Capsule<f64>;
     fn widened(&self) -> Capsule<f64> {
         let [half, radius] = [self.half_length(), self.radius()].map(f64::from);
-        Capsule::new(wide(self.centre()), wide(self.axis()), half, radius).unwrap()
+        Capsule::new(wide(self.centre()), wide(self.axis()), radius, half).unwrap()
     }
 }
 
@@ -310,7 +310,7 @@ impl Widen for Frustum<f32> {
     type Double = Frustum<f64>;
     fn widened(&self) -> Frustum<f64> {
         let [height, base, top] = [self.height(), self.base_radius(), self.top_radius()].map(f64::from);
-        Frustum::new(wide(self.base_centre()), wide(self.axis()), height, base, top).unwrap()
+        Frustum::new(wide(self.base_centre()), wide(self.axis()), base, top, height).unwrap()
     }
 }
 

@@ -152,7 +152,7 @@ fn no_contact_is_true() {
 fn closed_needles_never_deny_a_contact() {
     let model = SoftFinger::new(0.0_f32).unwrap().without_friction_limit();
     let needle =
-        Frustum::new(Vector3::new(0.1, -0.1, 0.2), Vector3::new(0.1, 0.2, -1.0), 1.0, 0.0, 0.01).unwrap();
+        Frustum::new(Vector3::new(0.1, -0.1, 0.2), Vector3::new(0.1, 0.2, -1.0), 0.0, 0.01, 1.0).unwrap();
     let (mut random, mut unresolved) = (Random::new(93), 0);
     for _ in 0..COUNT {
         let torque = random.direction() * random.log_uniform(1e-2, 1e4);

@@ -86,9 +86,9 @@ fn a_force_without_torque_beside_a_body_misses() {
     // On a sphere the two places are told on which it could only graze.
     let found = model.resolve(&wrench, &Sphere::new(aside, 0.01).unwrap());
     assert!(matches!(found, Resolution::NoContact(NoContact::Ambiguous { .. })), "{found:?}");
-    misses("capsule", model.resolve(&wrench, &Capsule::new(aside, upright, 0.01, 0.008).unwrap()));
+    misses("capsule", model.resolve(&wrench, &Capsule::new(aside, upright, 0.008, 0.01).unwrap()));
     misses("cylinder", model.resolve(&wrench, &CappedCylinder::new(aside, upright, 0.01, 0.008).unwrap()));
-    misses("frustum", model.resolve(&wrench, &Frustum::new(aside, upright, 0.02, 0.01, 0.004).unwrap()));
+    misses("frustum", model.resolve(&wrench, &Frustum::new(aside, upright, 0.01, 0.004, 0.02).unwrap()));
     let box_shaped = RoundedBox::new(Vector3::new(0.01, 0.008, 0.012), 0.003).unwrap();
     misses("rounded box", model.resolve(&wrench, &Posed::new(box_shaped, turn)));
     let elliptic = EllipticCylinder::new([0.007, 0.01], CylinderEnds::Capped(0.01)).unwrap();

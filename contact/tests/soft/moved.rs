@@ -121,11 +121,11 @@ fn shapes_with_a_place_of_their_own() {
     same("cut cylinder", cut(z * 0.002, z), &cut(at(0.002), axis), &["contact", "misses", "outside"]);
     let capped = |centre, axis| CappedCylinder::new(centre, axis, 0.009, 0.008).unwrap();
     same("capped cylinder", capped(z * 0.002, z), &capped(at(0.002), axis), &["contact", "misses"]);
-    let capsule = |centre, axis| Capsule::new(centre, axis, 0.006, 0.007).unwrap();
+    let capsule = |centre, axis| Capsule::new(centre, axis, 0.007, 0.006).unwrap();
     same("capsule", capsule(z * 0.002, z), &capsule(at(0.002), axis), &["contact", "misses"]);
     let cone = |apex, axis| Cone::new(apex, axis, 0.5).unwrap();
     same("cone", cone(z * 0.01, -z), &cone(at(0.01), -axis), &["contact", "misses"]);
-    let frustum = |base, axis, top| Frustum::new(base, axis, 0.016, 0.010, top).unwrap();
+    let frustum = |base, axis, top| Frustum::new(base, axis, 0.010, top, 0.016).unwrap();
     same("frustum", frustum(-z * 0.008, z, 0.006), &frustum(at(-0.008), axis, 0.006), &["contact", "misses"]);
     same("spike", frustum(-z * 0.008, z, 0.0), &frustum(at(-0.008), axis, 0.0), &["contact", "misses"]);
     let disk = |centre, axis| Disk::new(centre, axis, 0.012).unwrap();

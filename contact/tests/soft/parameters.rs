@@ -135,8 +135,8 @@ by_sizes!(sizes_of_the_cone, 0.017, [0.5], |s| {
 by_sizes!(sizes_of_the_capsule, 0.017, [0.006, 0.007], |s| Capsule::new(
     Vector3::zeros(),
     tilted(),
-    s[0],
-    s[1]
+    s[1],
+    s[0]
 ));
 by_sizes!(sizes_of_the_elliptic_cylinder, 0.017, [0.007, 0.012], |s| EllipticCylinder::new(
     s,
@@ -171,9 +171,9 @@ by_sizes!(sizes_of_the_closed_elliptic_cylinder, 0.014, [0.007, 0.012], |s| Elli
 by_sizes!(sizes_of_the_frustum, 0.013, [0.016, 0.009, 0.005], |s| Frustum::new(
     Vector3::new(T::literal(0.001), T::zero(), T::literal(-0.008)),
     tilted(),
-    s[0],
     s[1],
-    s[2]
+    s[2],
+    s[0]
 ));
 by_sizes!(sizes_of_the_cylinder, 0.017, [0.009], |s| Cylinder::new(Vector3::zeros(), tilted(), s[0]));
 by_sizes!(sizes_of_the_spherical_cap, 0.017, [0.013], |s| Sphere::centred(s[0])

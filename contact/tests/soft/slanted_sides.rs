@@ -97,17 +97,17 @@ fn frusta<T: Real>(tolerance: f64) {
             let solid = Frustum::new(
                 (axis * -0.5).map(T::literal),
                 axis.map(T::literal),
-                T::one(),
                 T::literal(base),
                 T::literal(top),
+                T::one(),
             );
             let solid = solid.unwrap();
             let same = Frustum::new(
                 solid.base_centre().map(Real::to_f64),
                 solid.axis().map(Real::to_f64),
-                1.0,
                 solid.base_radius().to_f64(),
                 solid.top_radius().to_f64(),
+                1.0,
             );
             short_way(&solid, &same.unwrap(), 1.0, &mut random, &mut told);
         }
@@ -134,7 +134,7 @@ fn the_short_way_and_the_long_way_agree() {
     for round in 0..6000 {
         let unit = random.log_uniform(1e-6, 1e3);
         let axis = random.direction();
-        let solid = Frustum::new(axis * (-0.5 * unit), axis, unit, 0.5 * unit, 0.2 * unit).unwrap();
+        let solid = Frustum::new(axis * (-0.5 * unit), axis, 0.5 * unit, 0.2 * unit, unit).unwrap();
         let cone = Cone::new(axis * (-0.6 * unit), axis, random.uniform(0.1, 1.4)).unwrap();
         let capped = CappedCylinder::new(axis * (0.1 * unit), axis, 0.4 * unit, 0.5 * unit).unwrap();
         macro_rules! agree {
@@ -195,7 +195,7 @@ fn extremes() {
     fn all<T: Real>() {
         let [zero, one] = [T::zero(), T::one()];
         let cone = Cone::new(Vector3::zeros(), Vector3::z(), T::literal(0.6)).unwrap();
-        let solid = Frustum::new(Vector3::zeros(), Vector3::z(), one, one, T::literal(0.5)).unwrap();
+        let solid = Frustum::new(Vector3::zeros(), Vector3::z(), one, T::literal(0.5), one).unwrap();
         let extremes = [
             zero,
             one,

@@ -136,7 +136,7 @@ mod shapes {
     }
 
     pub(super) fn capsule<T: Real>(u: T) -> Capsule<T> {
-        Capsule::new(at(u, 0.0, 0.001, 0.0), at(T::one(), 0.3, 0.1, 1.0), size(u, 0.006), size(u, 0.007))
+        Capsule::new(at(u, 0.0, 0.001, 0.0), at(T::one(), 0.3, 0.1, 1.0), size(u, 0.007), size(u, 0.006))
             .unwrap()
     }
 
@@ -163,7 +163,7 @@ mod shapes {
 
     pub(super) fn frustum<T: Real>(u: T) -> Frustum<T> {
         let (base, axis) = (at(u, 0.001, 0.0, -0.008), at(T::one(), 0.1, 0.2, 1.0));
-        Frustum::new(base, axis, size(u, 0.016), size(u, 0.010), size(u, 0.006)).unwrap()
+        Frustum::new(base, axis, size(u, 0.010), size(u, 0.006), size(u, 0.016)).unwrap()
     }
 
     pub(super) fn revolution<T: Real>(u: T) -> impl SoftFingerSurface<T> {

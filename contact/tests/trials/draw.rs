@@ -152,7 +152,7 @@ fn frustum<T: Real>(random: &mut Random, size: f64, edge: bool) -> (Frustum<T>, 
     let top = if random.uniform(0.0, 1.0) < 0.3 { 0.0 } else { size * random.uniform(0.1, 0.9) };
     let (point, normal) = on_solid(random, edge, axes, base, height, [size, top]);
     let [height, bottom, top] = [height, size, top].map(T::literal);
-    (Frustum::new(vector(base), vector(axes.0), height, bottom, top).unwrap(), point, normal)
+    (Frustum::new(vector(base), vector(axes.0), bottom, top, height).unwrap(), point, normal)
 }
 
 impl<T: Real> Drawn for Frustum<T> {
@@ -176,7 +176,7 @@ impl<T: Real> Drawn for Capsule<T> {
             (axis * half.copysign(normal.dot(&axis)), normal)
         };
         let [half, radius] = [half, size].map(T::literal);
-        let surface = Self::new(vector(centre), vector(axis), half, radius).unwrap();
+        let surface = Self::new(vector(centre), vector(axis), radius, half).unwrap();
         (surface, centre + from + normal * size, normal)
     }
 }

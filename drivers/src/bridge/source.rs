@@ -23,12 +23,14 @@ use crate::{AsyncSource, Sample, Source, SourceError, SourceErrorKind};
 /// let broken = BridgedError::<ConverterFault>::from(BridgeFault::NoExcitation);
 /// assert_eq!((late.kind(), broken.kind()), (SourceErrorKind::Timeout, SourceErrorKind::DeviceFault));
 /// assert_eq!(broken.to_string(), "there is no excitation");
+/// let told = "the converter did not become ready in time; is its clock running, and the pin wired?";
+/// assert_eq!(late.to_string(), told);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BridgedError<E> {
     /// The source of counts failed.
-    #[error("{0:?}")]
+    #[error(transparent)]
     Source(E),
     /// The counts give none.
     #[error(transparent)]

@@ -56,11 +56,9 @@ pub enum OnLoss {
 /// use fingertip_drivers::middleware::SupervisedError;
 /// use fingertip_drivers::{SourceError, SourceErrorKind};
 ///
-/// let lost = SupervisedError::Lost(ConverterFault::Timeout);
-/// assert_eq!(
-///     (lost.kind(), lost.to_string().as_str()),
-///     (SourceErrorKind::Timeout, "the link is lost: Timeout")
-/// );
+/// let lost = SupervisedError::Lost(ConverterFault::Reset);
+/// let told = format!("the link is lost: {}", ConverterFault::Reset);
+/// assert_eq!((lost.kind(), lost.to_string()), (SourceErrorKind::DeviceFault, told));
 /// let stopped = SupervisedError::<ConverterFault>::Stopped;
 /// assert_eq!(stopped.to_string(), "stopped since the link was lost; resume to go on");
 /// ```
@@ -68,11 +66,11 @@ pub enum OnLoss {
 #[non_exhaustive]
 pub enum SupervisedError<E> {
     /// The source says that something is wrong which has nothing to do with the link.
-    #[error("{0:?}")]
+    #[error(transparent)]
     Source(E),
     /// The link is lost, by this error.
-    #[error("the link is lost: {0:?}")]
-    Lost(E),
+    #[error("the link is lost: {0}")]
+    Lost(#[source] E),
     /// The link was lost before, and what to do is to stop.
     #[error("stopped since the link was lost; resume to go on")]
     Stopped,

@@ -2,8 +2,14 @@
 #![cfg(feature = "simulators")]
 
 use core::convert::Infallible;
+use core::error::Error;
+use std::io;
 
-use fingertip_drivers::middleware::{FaultInjector, Recorder, SampleFaults, Solved, Watched};
+use fingertip_drivers::bridge::{BridgeFault, BridgedError};
+use fingertip_drivers::middleware::{
+    FaultInjector, Recorder, SampleFaults, Solved, SupervisedError, Watched,
+};
+use fingertip_drivers::sensors::line::LineError;
 use fingertip_drivers::{Sample, Source, SourceError, SourceErrorKind};
 use fingertip_wrench::{Tare, Wrench, WrenchSolver};
 use nalgebra::{SVector, Vector3};
@@ -177,4 +183,22 @@ fn signals_are_solved_above_the_zero_that_was_set_last() {
     source.source_mut().end = 5;
     assert_eq!(source.source().number, 4);
     assert!(Source::<f64, Wrench<f64>>::next_sample(&mut source).unwrap().is_some());
+}
+
+/// What a user reads is a sentence however deep the error lies, and each part of it can be asked for.
+#[test]
+fn errors_within_errors_are_said_in_words() {
+    let cut = || io::Error::new(io::ErrorKind::BrokenPipe, "the cable is out");
+    let line = || LineError::<_, BridgeFault>::Line(cut());
+    assert_eq!(line().to_string(), "serial line: the cable is out");
+    let lost = SupervisedError::Lost(line());
+    assert_eq!(lost.to_string(), "the link is lost: serial line: the cable is out");
+    let within = lost.source().unwrap();
+    assert_eq!(within.to_string(), "serial line: the cable is out");
+    assert_eq!(within.source().unwrap().to_string(), "the cable is out");
+    let through = SupervisedError::Source(BridgedError::Source(line()));
+    assert_eq!(through.to_string(), "serial line: the cable is out");
+    assert_eq!(through.source().unwrap().to_string(), "the cable is out");
+    let device = SupervisedError::Source(LineError::<io::Error, _>::Device(BridgeFault::NoExcitation));
+    assert_eq!(device.to_string(), "there is no excitation");
 }

@@ -24,7 +24,7 @@ const PLACES: usize = 4;
 /// use nalgebra::Vector3;
 ///
 /// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.001)?);
-/// let mut slip = IncipientSlip::new(gate, 4e-6, 0.65)?;
+/// let mut slip = IncipientSlip::new(gate, 4e-6)?;
 /// // A pad of 50 kN/m under a tip that moves by a micrometre a sample: it sticks.
 /// for step in 0..100 {
 ///     let moved = Vector3::new(1e-6 * f64::from(step), 0.0, 0.0);
@@ -114,16 +114,16 @@ impl<T: Real> Place<T> {
 }
 
 impl<T: Real> IncipientSlip<T> {
-    /// From the gate on the normal force, the stretch of motion \[m\] over which to measure the
-    /// stiffness, and the share of the mean stiffness at which to warn.
+    /// From the gate on the normal force and the stretch of motion \[m\] over which to measure the
+    /// stiffness, warning at 0.65 of the mean stiffness.
     ///
     /// The stretch is some forty times the resolution of the displacement, and long enough for
     /// the force to grow by twenty times its noise (with ten, noise alone warns on three of ten ramps); 4 µm and 0.65 suit a rubber pad and a good
     /// encoder.
     ///
     /// # Errors
-    /// [`BadParameter`] unless the stretch is positive and finite and the share between 0.2 and 1.
-    pub fn new(gate: NormalForceGate<T>, window: T, warning_share: T) -> Result<Self, BadParameter> {
+    /// [`BadParameter`] unless the stretch is positive, finite and no subnormal number.
+    pub fn new(gate: NormalForceGate<T>, window: T) -> Result<Self, BadParameter> {
         if !(window > T::zero() && window.is_number()) {
             return Err(BadParameter { parameter: "window", requirement: "positive and finite" });
         }
@@ -131,10 +131,19 @@ impl<T: Real> IncipientSlip<T> {
         if !scale.is_number() {
             return Err(BadParameter { parameter: "window", requirement: "no subnormal number" });
         }
-        if !(warning_share > T::literal(0.2) && warning_share < T::one()) {
+        Ok(Self { gate, window, scale, warning_share: T::literal(0.65), state: None })
+    }
+
+    /// With another share of the mean stiffness at which to warn: the greater, the sooner, and the more
+    /// often without cause.
+    ///
+    /// # Errors
+    /// [`BadParameter`] unless the share is between 0.2 and 1.
+    pub fn with_warning_share(self, share: T) -> Result<Self, BadParameter> {
+        if !(share > T::literal(0.2) && share < T::one()) {
             return Err(BadParameter { parameter: "warning share", requirement: "between 0.2 and 1" });
         }
-        Ok(Self { gate, window, scale, warning_share, state: None })
+        Ok(Self { warning_share: share, ..self })
     }
 
     /// Takes the contact force and the displacement of the fingertip over the object \[m\] at the
@@ -258,5 +267,5 @@ stored! {
         window: T = detector.window,
         warning_share: T = detector.warning_share,
     },
-    Self::new(gate, window, warning_share)
+    Self::new(gate, window).and_then(|detector| detector.with_warning_share(warning_share))
 }

@@ -10,7 +10,7 @@ use fingertip_wrench::{ContactForce, Real};
 /// use nalgebra::Vector3;
 ///
 /// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01)?);
-/// let mut detector = RatioThreshold::new(gate, 0.5, 0.8)?;
+/// let mut detector = RatioThreshold::new(gate, 0.5)?;
 /// let mut judged = |normal, sideways: f64| detector.update(&ContactForce::new(normal, Vector3::x() * sideways, 0.0), 1e-3);
 /// assert_eq!(judged(0.05, 0.0), SlipVerdict::NotPressing);
 /// assert_eq!(judged(2.0, 0.5), SlipVerdict::Holding);

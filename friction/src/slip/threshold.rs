@@ -14,7 +14,7 @@ use crate::{BadParameter, NormalForceGate, SlipDetector, SlipVerdict};
 /// use nalgebra::Vector3;
 ///
 /// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01)?);
-/// let mut detector = RatioThreshold::new(gate, 0.5, 0.8)?; // μ, and warn at four fifths of it
+/// let mut detector = RatioThreshold::new(gate, 0.5)?; // μ; it warns at four fifths of it
 /// let force = ContactForce::new(2.0, Vector3::new(0.9, 0.0, 0.0), 0.0);
 /// assert_eq!(detector.update(&force, 1e-3), SlipVerdict::Warning);
 /// # Ok::<(), fingertip_friction::BadParameter>(())
@@ -28,20 +28,36 @@ pub struct RatioThreshold<T> {
 }
 
 impl<T: Real> RatioThreshold<T> {
-    /// From the static friction coefficient and the share of it, between 0 and 1, at which to warn.
+    /// From the gate on the normal force and the static friction coefficient, warning at four fifths of it.
     ///
     /// # Errors
-    /// [`BadParameter`] unless the coefficient is positive and finite and the share in (0, 1].
-    pub fn new(
-        gate: NormalForceGate<T>,
-        static_coefficient: T,
-        warning_share: T,
-    ) -> Result<Self, BadParameter> {
+    /// [`BadParameter`] unless the coefficient is positive and finite.
+    pub fn new(gate: NormalForceGate<T>, static_coefficient: T) -> Result<Self, BadParameter> {
         let limit = positive(static_coefficient, "friction coefficient")?;
-        if !(warning_share > T::zero() && warning_share <= T::one()) {
+        let share = T::literal(0.8);
+        Ok(Self { gate, warning: limit * share, limit, share })
+    }
+
+    /// With another share of the static coefficient at which to warn; 1 never warns.
+    ///
+    /// ```
+    /// use fingertip_friction::{ForceNoise, NormalForceGate, RatioThreshold, SlipVerdict};
+    ///
+    /// let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01)?);
+    /// let usual = RatioThreshold::new(gate, 0.5)?;
+    /// let early = usual.with_warning_share(0.6)?;
+    /// assert_eq!(usual.verdict_of(1.0, 0.35), SlipVerdict::Holding);
+    /// assert_eq!(early.verdict_of(1.0, 0.35), SlipVerdict::Warning);
+    /// # Ok::<(), fingertip_friction::BadParameter>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BadParameter`] unless the share is above 0 and at most 1.
+    pub fn with_warning_share(self, share: T) -> Result<Self, BadParameter> {
+        if !(share > T::zero() && share <= T::one()) {
             return Err(BadParameter { parameter: "warning share", requirement: "between 0 and 1" });
         }
-        Ok(Self { gate, warning: limit * warning_share, limit, share: warning_share })
+        Ok(Self { warning: self.limit * share, share, ..self })
     }
 }
 
@@ -113,7 +129,7 @@ stored! {
         static_coefficient: T = detector.limit,
         warning_share: T = detector.share,
     },
-    Self::new(gate, static_coefficient, warning_share)
+    Self::new(gate, static_coefficient).and_then(|detector| detector.with_warning_share(warning_share))
 }
 
 #[cfg(test)]
@@ -128,7 +144,7 @@ mod tests {
     #[test]
     fn what_is_not_finite_does_not_press() {
         let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.02).unwrap());
-        let mut detector = RatioThreshold::new(gate, 0.6, 0.75).unwrap();
+        let mut detector = RatioThreshold::new(gate, 0.6).unwrap().with_warning_share(0.75).unwrap();
         let mut told = |normal, tangential, spin| {
             detector.update(&ContactForce::new(normal, Vector3::new(tangential, 0.0, 0.0), spin), 1e-3)
         };
@@ -148,7 +164,7 @@ mod tests {
             bits in prop::collection::vec((any::<f64>(), any::<f64>()), 1..20),
         ) {
             let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.02).unwrap());
-            let mut detector = RatioThreshold::new(gate, 0.6, 0.75).unwrap();
+            let mut detector = RatioThreshold::new(gate, 0.6).unwrap().with_warning_share(0.75).unwrap();
             let forces: Vec<_> = forces.into_iter().chain(bits.into_iter().map(|(n, t)| (n, t.abs())))
                 .chain([(0.2, 0.0), (0.5, 0.3), (0.5, f64::NAN), (f64::NAN, 0.1), (f64::INFINITY, 1.0)]).collect();
             let (normal, tangential): (Vec<_>, Vec<_>) = forces.iter().copied().unzip();

@@ -34,7 +34,7 @@ impl Noise {
 #[test]
 fn threshold_warns_before_it_slips() {
     let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.02).unwrap());
-    let mut detector = RatioThreshold::new(gate, 0.5, 0.9).unwrap();
+    let mut detector = RatioThreshold::new(gate, 0.5).unwrap().with_warning_share(0.9).unwrap();
     let mut verdict = |normal: f64, tangential: f64| detector.update(&force(normal, tangential), 1e-3);
     assert_eq!(verdict(2.0, 0.89), SlipVerdict::Holding);
     assert_eq!(verdict(2.0, 0.91), SlipVerdict::Warning);
@@ -44,7 +44,9 @@ fn threshold_warns_before_it_slips() {
     assert_eq!(verdict(2.0, f64::NAN), SlipVerdict::NotPressing);
     assert_eq!(verdict(f64::INFINITY, f64::INFINITY), SlipVerdict::NotPressing);
     for (mu, share) in [(0.0, 0.5), (f64::NAN, 0.5), (0.5, 0.0), (0.5, 1.1), (0.5, f64::NAN)] {
-        assert!(RatioThreshold::new(gate, mu, share).is_err());
+        assert!(
+            RatioThreshold::new(gate, mu).and_then(|detector| detector.with_warning_share(share)).is_err()
+        );
     }
 }
 
@@ -174,7 +176,7 @@ fn incipient_slip_is_seen_before_gross_slip_at_any_rate() {
         (100e-6, Vector3::new(0.6, 0.8, 0.0)),
         (2e-3, Vector3::new(0.0, -1.0, 0.0)),
     ] {
-        let mut detector = IncipientSlip::<f64>::new(gate, 4e-6, 0.65).unwrap();
+        let mut detector = IncipientSlip::<f64>::new(gate, 4e-6).unwrap();
         // Half a second of rest with a load that relaxes: nothing is judged.
         for _ in 0..500 {
             assert_eq!(detector.update(&force(4.0, 0.0), &Vector3::zeros()), SlipVerdict::Holding);
@@ -202,8 +204,8 @@ fn incipient_slip_is_seen_before_gross_slip_at_any_rate() {
     let mut spread = Worst::new();
     warned_at.iter().for_each(|way| spread.see(way - warned_at[0]));
     assert!(warned_at.len() == 3 && spread.get() < 6e-6, "{warned_at:?}");
-    assert!(IncipientSlip::<f64>::new(gate, f64::NAN, 0.65).is_err());
-    assert!(IncipientSlip::<f64>::new(gate, 1e-6, 0.1).is_err());
+    assert!(IncipientSlip::<f64>::new(gate, f64::NAN).is_err());
+    assert!(IncipientSlip::<f64>::new(gate, 1e-6).unwrap().with_warning_share(0.1).is_err());
 }
 
 /// A sample without contact is an update with no force, for every detector and at any time.
@@ -230,5 +232,10 @@ fn an_open_contact_is_a_force_of_zero() {
     same(&drops);
     same(&StickSlipDetector::new(drops));
     same(&LikelihoodRatioDetector::<f64, 16>::new(noise, 1.0, 1000.0).unwrap());
-    same(&RatioThreshold::new(NormalForceGate::from_noise(&noise), 0.6, 0.75).unwrap());
+    same(
+        &RatioThreshold::new(NormalForceGate::from_noise(&noise), 0.6)
+            .unwrap()
+            .with_warning_share(0.75)
+            .unwrap(),
+    );
 }

@@ -14,7 +14,7 @@ const START: f64 = 0.26 * WINDOW;
 
 fn new() -> IncipientSlip<f64> {
     let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.01).unwrap());
-    IncipientSlip::new(gate, WINDOW, SHARE).unwrap()
+    IncipientSlip::new(gate, WINDOW).unwrap().with_warning_share(SHARE).unwrap()
 }
 
 fn direction() -> Vector3<f64> {
@@ -239,9 +239,15 @@ fn limits_of_the_settings() {
     for (window, share) in
         [(1e-6, 0.2), (1e-6, 1.0), (0.0, 0.5), (-1.0, 0.5), (1e-309, 0.5), (f64::INFINITY, 0.5)]
     {
-        assert!(IncipientSlip::new(gate, window, share).is_err(), "{window} {share}");
+        assert!(
+            IncipientSlip::new(gate, window).and_then(|detector| detector.with_warning_share(share)).is_err(),
+            "{window} {share}"
+        );
     }
-    assert!(IncipientSlip::new(gate, 1e-6, 0.201).is_ok() && IncipientSlip::new(gate, 1.0, 0.999).is_ok());
+    assert!(
+        IncipientSlip::new(gate, 1e-6).and_then(|detector| detector.with_warning_share(0.201)).is_ok()
+            && IncipientSlip::new(gate, 1.0).and_then(|detector| detector.with_warning_share(0.999)).is_ok()
+    );
     // Displacements at the ends of the range are taken without a panic.
     let mut detector = new();
     for x in [0.0, f64::MAX, -f64::MAX, 5e-324, 1e300, 0.0] {

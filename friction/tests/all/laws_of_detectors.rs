@@ -34,7 +34,8 @@ fn laws_of_all<T: Real>() {
     let ratio = LikelihoodRatioDetector::<T, 16>::new(noise, 1.0, 1000.0).unwrap();
     let learnt = AdaptiveDropDetector::new(noise, 1.0, 1000.0).unwrap();
     let gate = NormalForceGate::from_noise(&noise);
-    let threshold = RatioThreshold::new(gate, T::literal(0.6), T::literal(0.8)).unwrap();
+    let threshold =
+        RatioThreshold::new(gate, T::literal(0.6)).unwrap().with_warning_share(T::literal(0.8)).unwrap();
     let quick = T::literal(1e-4);
     for trial in [trial(), SlipTrial { time_step: quick, ..trial() }] {
         detector_laws(|| drops, &trial);

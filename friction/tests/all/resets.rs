@@ -210,7 +210,10 @@ fn open_contacts_are_told_through_a_reference() {
     assert_eq!(open(&mut given), SlipVerdict::Warning);
     assert_eq!(given.0, 1e-3);
     let gate = NormalForceGate::from_noise(&NOISE);
-    assert_eq!(open(RatioThreshold::new(gate, 0.5, 0.9).unwrap()), SlipVerdict::NotPressing);
+    assert_eq!(
+        open(RatioThreshold::new(gate, 0.5).unwrap().with_warning_share(0.9).unwrap()),
+        SlipVerdict::NotPressing
+    );
 }
 
 #[test]
@@ -268,7 +271,7 @@ fn estimators_forget_surface_and_samples() {
     assert_eq!(learnt.estimate(), None);
 
     let gate = NormalForceGate::from_noise(&NOISE);
-    let new = IncipientSlip::new(gate, 4e-6, 0.65).unwrap();
+    let new = IncipientSlip::new(gate, 4e-6).unwrap().with_warning_share(0.65).unwrap();
     let mut used = new;
     for index in 0..100 {
         let x = 1e-6 * f64::from(index);

@@ -177,7 +177,7 @@ fn ratio_deviation_agrees_with_sampling() {
 #[test]
 fn threshold_verdicts_at_the_limits_themselves() {
     let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.0625).unwrap());
-    let mut detector = RatioThreshold::new(gate, 0.5, 0.75).unwrap();
+    let mut detector = RatioThreshold::new(gate, 0.5).unwrap().with_warning_share(0.75).unwrap();
     for (normal, load, wanted) in [
         (2.0, 0.7499, SlipVerdict::Holding),
         (2.0, 0.75, SlipVerdict::Warning),
@@ -200,7 +200,10 @@ fn threshold_verdicts_at_the_limits_themselves() {
     assert_eq!(detector.verdict_of(2.0, f64::NAN), SlipVerdict::NotPressing);
     assert_eq!(detector.verdict_of(2.0, -0.1), SlipVerdict::NotPressing);
     assert!(
-        RatioThreshold::new(gate, 0.5, 1.0).is_ok() && RatioThreshold::new(gate, f64::INFINITY, 0.5).is_err()
+        RatioThreshold::new(gate, 0.5).and_then(|detector| detector.with_warning_share(1.0)).is_ok()
+            && RatioThreshold::new(gate, f64::INFINITY)
+                .and_then(|detector| detector.with_warning_share(0.5))
+                .is_err()
     );
     // The shortest column counts.
     let mut verdicts = [SlipVerdict::NotPressing; 3];

@@ -90,14 +90,14 @@ fn detectors<T: Real + Serialize + DeserializeOwned>() {
     let gate = NormalForceGate::from_noise(&noise);
     kept(&gate);
     kept(&Cusum::new(l(0.75), l(7.0)).unwrap());
-    kept(&RatioThreshold::new(gate, l(0.6), l(0.9)).unwrap());
+    kept(&RatioThreshold::new(gate, l(0.6)).unwrap().with_warning_share(l(0.9)).unwrap());
     let drops = DropDetector::with_sum(noise, Cusum::new(l(1.0), l(6.1)).unwrap()).unwrap();
     kept(&drops);
     kept(&StickSlipDetector::new(drops));
     kept(&AdaptiveDropDetector::new(noise, 0.5, 1000.0).unwrap());
     kept(&LikelihoodRatio::<T, 16>::with_window(12, l(9.5)).unwrap());
     kept(&LikelihoodRatioDetector::<T, 16>::new(noise, 1.0, 1000.0).unwrap());
-    kept(&IncipientSlip::new(gate, l(4e-6), l(0.65)).unwrap());
+    kept(&IncipientSlip::new(gate, l(4e-6)).unwrap().with_warning_share(l(0.65)).unwrap());
     kept(&KineticFriction::new(noise, l(0.5)).unwrap());
     kept(&StaticFriction::<T, 64>::new(noise, l(0.05), l(0.01)).unwrap());
     // A window longer than the room for it.

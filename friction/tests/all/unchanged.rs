@@ -204,9 +204,15 @@ fn detectors_of<T: Real>(unchanged: &mut Unchanged, kind: &str) {
         StickSlipDetector::new(drop),
         StickSlipDetector::motion,
     );
-    let threshold = RatioThreshold::new(NormalForceGate::from_noise(&noise), n(0.5), n(0.4)).unwrap();
+    let threshold = RatioThreshold::new(NormalForceGate::from_noise(&noise), n(0.5))
+        .unwrap()
+        .with_warning_share(n(0.4))
+        .unwrap();
     detector(unchanged, &format!("threshold {kind}"), threshold, |_| ());
-    let mut incipient = IncipientSlip::new(NormalForceGate::from_noise(&noise), n(1e-4), n(0.6)).unwrap();
+    let mut incipient = IncipientSlip::new(NormalForceGate::from_noise(&noise), n(1e-4))
+        .unwrap()
+        .with_warning_share(n(0.6))
+        .unwrap();
     // Pushed to and fro against a contact that gives way more and more.
     let mut draws = Draws::new(61);
     let answers = (0..3000).map(|k| {

@@ -62,7 +62,7 @@ impl Recording {
 
     pub(crate) fn onsets(&self) -> Result<Onsets, Failure> {
         let gate = NormalForceGate::from_noise(&ForceNoise::isotropic(0.05)?);
-        let mut detector = IncipientSlip::new(gate, 4e-6, 0.65)?;
+        let mut detector = IncipientSlip::new(gate, 4e-6)?.with_warning_share(0.65)?;
         let mut found = Onsets { times: Vec::new(), slips: 0 };
         let mut last = SlipVerdict::Holding;
         for row in &self.samples {

@@ -26,6 +26,11 @@ use crate::grasp::spectrum::Spectrum;
 /// # Ok::<(), fingertip_hand::BadContact>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Freedom<T: Real, const N: usize> {
     /// Angular velocity \[rad/s\] of the motion; zero for sliding. Only the direction of the whole has a meaning.
     pub turning: Vector3<T>,
@@ -33,10 +38,19 @@ pub struct Freedom<T: Real, const N: usize> {
     pub velocity: Vector3<T>,
     kind: Kind<T>,
     /// Whether the axis runs through the contact.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     through: [bool; N],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        rename_all = "snake_case",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
 enum Kind<T: Real> {
     Sliding { along: Vector3<T> },
     Turning { along: Vector3<T>, point: Vector3<T> },

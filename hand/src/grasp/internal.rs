@@ -24,10 +24,17 @@ use crate::grasp::spectrum::Spectrum;
 /// # Ok::<(), fingertip_hand::BadContact>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct SplitForces<T: Real, const N: usize> {
     /// The smallest forces with the wrench of them all: least `Σ f_n² + |f_t|²/μ² + τ²/(μe)²`.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub bearing: [ContactForce<T>; N],
     /// What is left: forces that cancel, with which the object is squeezed.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub internal: [ContactForce<T>; N],
 }
 

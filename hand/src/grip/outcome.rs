@@ -24,9 +24,15 @@ use crate::Hand;
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Grip<T: Real, const N: usize, F: Frame = Hand> {
     /// What each finger should feel: the force of the object on the fingertip. Zero for a finger that does not touch.
     /// Every force is within its friction limit and every limit of its finger.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub forces: [ContactForce<T>; N],
     /// `Σ cost·normal force` \[N\] of these forces.
     pub cost: T,
@@ -68,6 +74,11 @@ impl<T: Real, const N: usize, F: Frame> Grip<T, N, F> {
 /// # Ok::<(), fingertip_hand::BadContact>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct CannotHold<T: Real, F: Frame = Hand> {
     /// Velocity \[m/s\], at the origin of the frame, of the motion by which the object will go; only the direction
     /// of the motion has a meaning.
@@ -81,6 +92,7 @@ pub struct CannotHold<T: Real, F: Frame = Hand> {
     pub needs: T,
     /// Steps of the interior-point method.
     pub steps: u32,
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) frame: core::marker::PhantomData<F>,
 }
 
@@ -111,6 +123,14 @@ impl<T: Real, F: Frame> CannotHold<T, F> {
 /// # Ok::<(), fingertip_hand::BadContact>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        rename_all = "snake_case",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
 pub enum GripOutcome<T: Real, const N: usize, F: Frame = Hand> {
     /// These forces hold.
     Held(Grip<T, N, F>),

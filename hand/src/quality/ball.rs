@@ -59,6 +59,11 @@ impl<T: Real> Metric<T> {
 /// # Ok::<(), fingertip_hand::BadContact>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct GraspBall<T: Real, F: Frame> {
     /// The radius is at least this \[N\]: certified, from what the grasp bears along six axes, both ways.
     pub certified: T,

@@ -24,6 +24,8 @@ use crate::{FingerLimits, Grasp};
 /// # Ok::<(), fingertip_hand::BadContact>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Reach<T> {
     /// This many times the disturbance, and no more.
     Times(T),

@@ -29,6 +29,14 @@ use crate::{
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        rename_all = "snake_case",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+    )
+)]
 pub enum HandState<T: Real, F: Frame = Hand> {
     /// The least grip for the load.
     Holding,
@@ -58,12 +66,19 @@ pub enum HandState<T: Real, F: Frame = Hand> {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
     /// For each finger \[N\].
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub normal: [T; N],
     /// What they rest on.
     pub state: HandState<T, F>,
     /// The fingers that were not believed in this sample: their contact cannot be, or they feel a force without one.
+    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
     pub implausible: [bool; N],
 }
 

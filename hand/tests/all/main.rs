@@ -15,3 +15,4 @@ mod objects;
 mod precision;
 mod quality;
 mod reaction;
+mod stored;

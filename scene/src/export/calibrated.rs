@@ -59,7 +59,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
         };
         let reading = match file.temperature.is_some() {
             true => "wrench::GaugesAndTemperature { gauges, temperature }".to_owned(),
-            false => format!("nalgebra::SVector<{t}, {gauges}>"),
+            false => format!("fingertip::nalgebra::SVector<{t}, {gauges}>"),
         };
         let constants: String = file
             .to_rust(scalar)?
@@ -81,7 +81,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
             zero,
             module: format!(
                 "\n/// The calibration of the sensor.\npub mod calibration {{\n    \
-                 use fingertip::wrench as fingertip_wrench;\n\n{constants}}}\n"
+                 use fingertip::{{nalgebra, wrench as fingertip_wrench}};\n\n{constants}}}\n"
             ),
             opposite,
             is_warm: file.temperature.is_some(),

@@ -73,7 +73,7 @@ pub enum ExportError {
 
 impl Scene {
     /// The scene as a Rust module: the typed pipeline (`Tip`), a function that makes it of constants (`tip`), and
-    /// functions for what the pipeline has no stage for. It needs `fingertip` and `nalgebra`, no files and no standard
+    /// functions for what the pipeline has no stage for. It needs `fingertip` alone, no files and no standard
     /// library; a heap for meshes and heightfields alone. Its answers are those of [`Scene::pipeline_in`], bit for bit.
     ///
     /// With the calibration of the sensor, the pipeline begins with its readings, otherwise with wrenches.

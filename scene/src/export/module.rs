@@ -207,8 +207,7 @@ fn header<T: Real>(scene: &Scene, stages: &Stages, beside: &[Beside], items: &st
     let _ = write!(
         text,
         "//\n// It needs {heap}, and in Cargo.toml:\n//\n//   fingertip = {{ version = \"{}\", default-features = false, \
-         features = [{}] }}\n//   nalgebra = {{ version = \"0.35\", default-features = false }}\n//\n// With a standard \
-         library, \"std\" in the place of \"libm\".\n//\n",
+         features = [{}] }}\n//\n// With a standard library, \"std\" in the place of \"libm\".\n//\n",
         env!("CARGO_PKG_VERSION"),
         features.join(", "),
     );
@@ -273,18 +272,18 @@ fn imports(items: &str) -> String {
         .into_iter()
         .filter(|name| items.contains(&format!("{name},")) || items.contains(&format!("{name}<")))
         .collect();
+    let numeric: Vec<&str> =
+        NUMERIC.into_iter().filter(|name| items.contains(&format!("nalgebra::{name}"))).collect();
+    if let [first, rest @ ..] = numeric.as_slice() {
+        let list = if rest.is_empty() { (*first).to_owned() } else { format!("{{{}}}", numeric.join(", ")) };
+        let _ = writeln!(text, "use fingertip::nalgebra::{list};");
+    }
     let _ = writeln!(
         text,
         "use fingertip::{{{}}};\nuse fingertip::{{{}}};",
         stages.join(", "),
         crates.join(", ")
     );
-    let numeric: Vec<&str> =
-        NUMERIC.into_iter().filter(|name| items.contains(&format!("nalgebra::{name}"))).collect();
-    if let [first, rest @ ..] = numeric.as_slice() {
-        let list = if rest.is_empty() { (*first).to_owned() } else { format!("{{{}}}", numeric.join(", ")) };
-        let _ = writeln!(text, "use nalgebra::{list};");
-    }
     text
 }
 

@@ -45,7 +45,7 @@ const SHAPES: &[Row] = &[
     row(
         "capsule",
         "surfaces::Capsule<{T}>",
-        "surfaces::Capsule::new({centre_m:v}, {axis:v}, {half_length_m}, {radius_m})?",
+        "surfaces::Capsule::new({centre_m:v}, {axis:v}, {radius_m}, {half_length_m})?",
     ),
     row(
         "cone",
@@ -55,7 +55,7 @@ const SHAPES: &[Row] = &[
     row(
         "frustum",
         "surfaces::Frustum<{T}>",
-        "surfaces::Frustum::new({base_centre_m:v}, {axis:v}, {height_m}, {base_radius_m}, {top_radius_m})?",
+        "surfaces::Frustum::new({base_centre_m:v}, {axis:v}, {base_radius_m}, {top_radius_m}, {height_m})?",
     ),
     row("torus", "surfaces::Torus<{T}>", "surfaces::Torus::new({ring_radius_m}, {tube_radius_m})?"),
     row(

@@ -105,7 +105,8 @@ const DETECTORS: &[Row] = &[
     row(
         "threshold",
         "friction::RatioThreshold<{T}>",
-        "friction::RatioThreshold::new(friction::NormalForceGate::from_noise(&NOISE), {coefficient}, {warning_share})?",
+        "friction::RatioThreshold::new(friction::NormalForceGate::from_noise(&NOISE), {coefficient})?\
+         .with_warning_share({warning_share})?",
     ),
     row(
         "likelihood_ratio",

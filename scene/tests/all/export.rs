@@ -25,8 +25,25 @@ fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/all/exported/{name}.rs"))
 }
 
+/// That a module names no package but `fingertip`: what else it calls by name, it has imported from there.
+fn needs_fingertip_alone(name: &str, text: &str) {
+    let mut imports = text.lines().filter_map(|line| line.trim().strip_prefix("use "));
+    assert_eq!(imports.find(|path| !path.starts_with("fingertip::")), None, "{name}");
+    let (module, calibration) = text.split_once("pub mod calibration {").unwrap_or((text, ""));
+    assert_eq!(
+        module.matches("nalgebra::").count(),
+        module.matches("fingertip::nalgebra::").count(),
+        "{name}"
+    );
+    assert!(
+        !calibration.contains("nalgebra::") || calibration.contains("use fingertip::{nalgebra, "),
+        "{name}"
+    );
+}
+
 /// That a file holds a text; with `FINGERTIP_ACCEPT=1` it is written there instead.
 fn holds(name: &str, text: &str) {
+    needs_fingertip_alone(name, text);
     let path = file(name);
     if env::var_os("FINGERTIP_ACCEPT").is_some() {
         fs::write(&path, text).unwrap();

@@ -158,10 +158,10 @@ fn detectors_are_the_librarys() {
         DropDetector::with_sum(noise, sum).unwrap(),
     );
     let gate = NormalForceGate::from_noise(&noise);
-    same("detector = \"threshold\"\nnoise_N = 0.01\n", RatioThreshold::new(gate, 0.47, 0.8).unwrap());
+    same("detector = \"threshold\"\nnoise_N = 0.01\n", RatioThreshold::new(gate, 0.47).unwrap());
     same(
         "detector = \"threshold\"\nnoise_N = 0.01\nwarning_share = 0.6\n",
-        RatioThreshold::new(gate, 0.47, 0.6).unwrap(),
+        RatioThreshold::new(gate, 0.47).unwrap().with_warning_share(0.6).unwrap(),
     );
     same(
         "detector = \"likelihood_ratio\"\nnoise_N = 0.01\n",

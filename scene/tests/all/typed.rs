@@ -59,7 +59,7 @@ fn a_soft_finger_on_a_capsule_that_is_turned() {
             let turn = Vector3::new(0.0, 90.0_f64.to_radians(), 0.0).map(number);
             let pose =
                 RigidTransform::from_axis_angle(turn, Vector3::new(0.001, 0.0, 0.002).map(number)).unwrap();
-            let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), number(0.01), number(0.008)).unwrap();
+            let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), number(0.008), number(0.01)).unwrap();
             let mut typed = Fingertip::builder()
                 .contact(Posed::new(capsule, pose), SoftFinger::new(0.0).unwrap())
                 .friction(SoftFingerLimit::new(number(0.5), number(0.003)).unwrap())

@@ -16,8 +16,8 @@ fn faults_are_named() {
     let cases = [
         (flaw("convention = \"on_fingertip\"\n", ""), "missing field `convention`"),
         (flaw("on_fingertip", "object"), "expected `on_fingertip` or `reaction`"),
-        (flaw("convention", "convection"), "unknown field `convection`"),
-        (with("radius_mm = 13.0\n"), "unknown field `radius_mm`"),
+        (flaw("convention", "convection"), "key `input.convection`: unknown field `convection`"),
+        (with("radius_mm = 13.0\n"), "key `surface.radius_mm`: unknown field `radius_mm`"),
         (flaw("[surface]", "[input.columns]\nforce_x = \"F\"\n[surface]"), "`force_x` of [input.columns]"),
         (flaw("[surface]", "[input.columns]\nv0 = \"F\"\n[surface]"), "`v0` of [input.columns]"),
         (flaw("[surface]", "[input.columns]\ntime = \"-T\"\n[surface]"), "[input.columns]"),
@@ -105,7 +105,10 @@ fn faults_are_named() {
             ),
             "probability",
         ),
-        (with("[friction]\nstatic_coeficient = 0.5\n"), "unknown field `static_coeficient`"),
+        (
+            with("[friction]\nstatic_coeficient = 0.5\n"),
+            "key `friction.static_coeficient`: unknown field `static_coeficient`",
+        ),
         (with("[slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n"), "[friction]"),
         (
             with("[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\nslide_s = 0.0\n"),

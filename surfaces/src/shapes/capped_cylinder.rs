@@ -41,7 +41,7 @@ impl<T: Real> CappedCylinder<T> {
         let half_length = BadShape::check_length(shape, "half length", half_length)?;
         let radius = BadShape::check_length(shape, "radius", radius)?;
         let base = centre - axis * half_length;
-        let solid = Frustum::new(base, axis, half_length + half_length, radius, radius)
+        let solid = Frustum::new(base, axis, radius, radius, half_length + half_length)
             .map_err(|bad| BadShape { shape, ..bad })?;
         Ok(Self { solid, centre, half_length })
     }

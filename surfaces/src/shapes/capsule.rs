@@ -21,7 +21,7 @@ use crate::{
 /// use nalgebra::Vector3;
 ///
 /// // A segment from −10 mm to 10 mm along z, and all within 5 mm of it.
-/// let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.005)?;
+/// let tip = Capsule::new(Vector3::zeros(), Vector3::z(), 0.005, 0.01)?;
 /// let line = Line { point: Vector3::new(0.0, 0.0, 0.05), direction: -Vector3::z() };
 /// let mut heights = Vec::new();
 /// tip.crossings(&line, |crossing| heights.push(crossing.point.z));
@@ -38,13 +38,13 @@ pub struct Capsule<T: Real> {
 }
 
 impl<T: Real> Capsule<T> {
-    /// Around the segment of length `2·half_length` \[m\] along `axis` (of any length) about
-    /// `centre` \[m\], at a distance `radius` \[m\].
+    /// At a distance `radius` \[m\] around the segment of length `2·half_length` \[m\] along `axis`
+    /// (of any length) about `centre` \[m\].
     ///
     /// # Errors
     /// [`BadShape`] unless the centre is finite, the axis has a direction and the two lengths are
     /// positive finite lengths.
-    pub fn new(centre: Vector3<T>, axis: Vector3<T>, half_length: T, radius: T) -> Result<Self, BadShape> {
+    pub fn new(centre: Vector3<T>, axis: Vector3<T>, radius: T, half_length: T) -> Result<Self, BadShape> {
         let radius = BadShape::check_length("capsule", "radius", radius)?;
         Ok(Self {
             axis: Axis::new(
@@ -223,5 +223,5 @@ stored! {
         half_length_m: T = capsule.half_length,
         radius_m: T = capsule.radius,
     },
-    Capsule::new(centre_m, axis, half_length_m, radius_m)
+    Capsule::new(centre_m, axis, radius_m, half_length_m)
 }

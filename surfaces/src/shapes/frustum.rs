@@ -23,7 +23,7 @@ use crate::{
 /// use nalgebra::Vector3;
 ///
 /// // 10 mm high, 6 mm in radius at its base and 4 mm at its top: 5 mm half-way.
-/// let tip = Frustum::new(Vector3::zeros(), Vector3::z(), 0.01, 0.006, 0.004)?;
+/// let tip = Frustum::new(Vector3::zeros(), Vector3::z(), 0.006, 0.004, 0.01)?;
 /// assert!(tip.contains(&Vector3::new(0.0049, 0.0, 0.005)));
 /// assert!(!tip.contains(&Vector3::new(0.0051, 0.0, 0.005)));
 /// assert_eq!(tip.normal(&Vector3::new(0.001, 0.0, 0.01)), Vector3::z());
@@ -53,18 +53,18 @@ pub struct Frustum<T: Real> {
 }
 
 impl<T: Real> Frustum<T> {
-    /// From the centre of the base \[m\], an axis of any length towards the top, the height, and
-    /// the radii of base and top \[m\].
+    /// From the centre of the base \[m\], an axis of any length towards the top, the radii of base and
+    /// top, and the height \[m\].
     ///
     /// # Errors
-    /// [`BadShape`] unless the centre is finite, the axis has a direction, the height is a
-    /// positive finite length, and so are the radii, of which one may be zero.
+    /// [`BadShape`] unless the centre is finite, the axis has a direction, the radii are positive
+    /// finite lengths, of which one may be zero, and so is the height.
     pub fn new(
         base_centre: Vector3<T>,
         axis: Vector3<T>,
-        height: T,
         base_radius: T,
         top_radius: T,
+        height: T,
     ) -> Result<Self, BadShape> {
         let shape = "frustum";
         let check = |parameter, radius: T| {
@@ -368,8 +368,8 @@ stored! {
     Frustum::new(
         base_centre_m,
         axis,
-        height_m,
         base_radius_m,
         top_radius_m,
+        height_m,
     )
 }

@@ -95,7 +95,7 @@ pub enum Topology {
 /// use nalgebra::Vector3;
 ///
 /// // A capsule of 5 mm around a segment of ±10 mm fits into a ball of 15 mm.
-/// let extent = Capsule::new(Vector3::y(), Vector3::z(), 0.01, 0.005)?.extent();
+/// let extent = Capsule::new(Vector3::y(), Vector3::z(), 0.005, 0.01)?.extent();
 /// assert_eq!(extent.centre, Vector3::y());
 /// assert!((extent.radius - 0.015_f64).abs() < 1e-15);
 /// # Ok::<(), fingertip_surfaces::BadShape>(())

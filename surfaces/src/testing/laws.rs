@@ -18,12 +18,12 @@ use crate::numeric::vectors::{any_perpendicular, length, unit_or};
 /// use nalgebra::Vector3;
 ///
 /// let cylinder = CappedCylinder::new(Vector3::zeros(), Vector3::z(), 0.006, 0.02)?;
-/// let laws = SurfaceLaws::around(Vector3::zeros(), 0.021_f64).lines(200).seed(7);
+/// let laws = SurfaceLaws::around(Vector3::zeros(), 0.021_f64).with_lines(200).with_seed(7);
 /// assert_eq!(laws.with_edges().check(&cylinder), Ok(()));
 /// // Not every line that enters the other side of a plane leaves it again.
 /// let plane = Plane::new(Vector3::zeros(), Vector3::z())?;
 /// assert!(laws.check(&plane).is_err());
-/// assert_eq!(laws.open().check(&plane), Ok(()));
+/// assert_eq!(laws.without_inside().check(&plane), Ok(()));
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -56,31 +56,31 @@ impl<T: Real> SurfaceLaws<T> {
 
     /// How many lines are tried.
     #[must_use]
-    pub fn lines(self, lines: u32) -> Self {
+    pub fn with_lines(self, lines: u32) -> Self {
         Self { lines, ..self }
     }
 
     /// Another stream of lines.
     #[must_use]
-    pub fn seed(self, seed: u64) -> Self {
+    pub fn with_seed(self, seed: u64) -> Self {
         Self { seed, ..self }
     }
 
     /// How many rounding errors of the size of the ball a crossing may be off, at square incidence.
     #[must_use]
-    pub fn roundings(self, roundings: T) -> Self {
+    pub fn with_roundings(self, roundings: T) -> Self {
         Self { roundings, ..self }
     }
 
     /// How many rounding errors of the size of the ball a closest approach may be off.
     #[must_use]
-    pub fn gap_roundings(self, roundings: T) -> Self {
+    pub fn with_gap_roundings(self, roundings: T) -> Self {
         Self { gap_tolerance: roundings, ..self }
     }
 
     /// The surface has no inside that every line leaves again: planes, open and unbounded shapes.
     #[must_use]
-    pub fn open(self) -> Self {
+    pub fn without_inside(self) -> Self {
         Self { closed: false, ..self }
     }
 

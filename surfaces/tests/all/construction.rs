@@ -40,8 +40,8 @@ fn lengths_are_normal_numbers_with_a_reciprocal() {
     takes_lengths(|r| Disk::new(o(), z, r), "radius");
     takes_lengths(|r| Cylinder::new(o(), z, r), "radius");
     takes_lengths(|h| Cylinder::new(o(), z, 1.0).and_then(|c| c.with_half_length(h)), "half length");
-    takes_lengths(|r| Capsule::new(o(), z, 1.0, r), "radius");
-    takes_lengths(|h| Capsule::new(o(), z, h, 1.0), "half length");
+    takes_lengths(|r| Capsule::new(o(), z, r, 1.0), "radius");
+    takes_lengths(|h| Capsule::new(o(), z, 1.0, h), "half length");
     takes_lengths(|d| Cone::new(o(), z, 0.5).and_then(|c| c.with_depth(d)), "depth");
     takes_lengths(|d| Paraboloid::new([1.0, 1.0]).and_then(|p| p.with_depth(d)), "depth");
     for ends in [CylinderEnds::Open, CylinderEnds::Capped] {
@@ -62,15 +62,15 @@ fn lengths_are_normal_numbers_with_a_reciprocal() {
 fn a_shape_keeps_within_the_range_of_the_type() {
     let at = |x: f64| Sphere::new(v(x, 0.0, 0.0), GREATEST);
     takes(at, &[0.0, 1e308], &[f64::MAX, -f64::MAX, f64::NAN], "centre");
-    let frustum = |h: f64| Frustum::new(o(), Vector3::z(), h, 1e10, 1.0);
+    let frustum = |h: f64| Frustum::new(o(), Vector3::z(), 1e10, 1.0, h);
     takes(frustum, &[1e-290, 1.0], &[1e-300], "height");
     for make in
-        [|r| Frustum::new(o(), Vector3::z(), 1.0, r, 0.5), |r| Frustum::new(o(), Vector3::z(), 1.0, 0.5, r)]
+        [|r| Frustum::new(o(), Vector3::z(), r, 0.5, 1.0), |r| Frustum::new(o(), Vector3::z(), 0.5, r, 1.0)]
     {
         assert!(make(0.0).is_ok() && make(LEAST).is_ok());
         assert!([-0.5, LEAST.next_down(), f64::NAN].iter().all(|r| make(*r).is_err()));
     }
-    assert_eq!(Frustum::new(o(), Vector3::z(), 1.0, 0.0, 0.0).unwrap_err().parameter, "greater radius");
+    assert_eq!(Frustum::new(o(), Vector3::z(), 0.0, 0.0, 1.0).unwrap_err().parameter, "greater radius");
 }
 
 #[test]

@@ -82,7 +82,7 @@ fn rims_run_and_bend_as_circles_and_ellipses_do() {
     let at = v(0.3, -0.2, 0.1);
     let axis = v(1.0, 2.0, -2.0) / 3.0;
     let (e1, e2) = (v(2.0, 1.0, 2.0) / 3.0, v(-2.0, 2.0, 1.0) / 3.0);
-    let frustum = Frustum::new(at, axis, 2.0, 0.75, 0.5).unwrap();
+    let frustum = Frustum::new(at, axis, 0.75, 0.5, 2.0).unwrap();
     let taper = 0.25 / 2.0;
     let slanted = |angle: f64| (e1 * angle.cos() + e2 * angle.sin() + axis * taper).normalize();
     let rim = |height: f64, radius: f64| Rim {
@@ -128,9 +128,9 @@ fn tips_are_tips() {
     let (down, z) = (-Vector3::z(), Vector3::z());
     let cone = Cone::new(at, down, 0.5).unwrap();
     assert_eq!(cone.corner(&at, &z), Some(Corner::Tip));
-    let closed = Frustum::new(at - z, z, 1.0, 0.5, 0.0).unwrap();
+    let closed = Frustum::new(at - z, z, 0.5, 0.0, 1.0).unwrap();
     assert_eq!(closed.corner(&at, &z), Some(Corner::Tip));
-    let widening = Frustum::new(at, z, 1.0, 0.0, 0.5).unwrap();
+    let widening = Frustum::new(at, z, 0.0, 0.5, 1.0).unwrap();
     assert_eq!(widening.corner(&at, &down), Some(Corner::Tip));
     assert_eq!(Posed::new(cone, RigidTransform::identity()).corner(&at, &z), Some(Corner::Tip));
     // None of those that are smooth knows of one.
@@ -157,7 +157,7 @@ fn parallel_surfaces_are_round_over_edges() {
         assert!((level.hessian - expected).norm() < 1e-12, "{angle}: {} {expected}", level.hessian);
         assert!(level.value.abs() < 1e-15 && (level.gradient - normal).norm() < 1e-14);
     }
-    let cone = Offset::new(Frustum::new(-z, z, 1.0, 1.0, 0.0).unwrap(), distance).unwrap();
+    let cone = Offset::new(Frustum::new(-z, z, 1.0, 0.0, 1.0).unwrap(), distance).unwrap();
     let normal = v(0.2, 0.1, 1.0).normalize();
     let expected = (Matrix3::identity() - normal * normal.transpose()) / distance;
     assert!((cone.level(&(normal * distance)).hessian - expected).norm() < 1e-12);

@@ -58,7 +58,7 @@ pub(crate) fn every_shape<T: Real>(k: T) -> Vec<Shape<T>> {
     let heights = heights.map(|h| l::<T>(h) * k).to_vec();
     let (vertices, triangles) = ball_of_triangles::<T>(4, 4, None);
     let vertices: Vec<_> = vertices.iter().map(|p| p * k).collect();
-    let shaft = || Capsule::new(o(), z(), k, l::<T>(0.5) * k).unwrap();
+    let shaft = || Capsule::new(o(), z(), l::<T>(0.5) * k, k).unwrap();
     let tip = Sphere::new(z() * k, l::<T>(0.75) * k).unwrap();
     let shape = |name, surface, [closed, bounded, told_by_normal]: [bool; 3]| Shape {
         name,
@@ -103,7 +103,7 @@ pub(crate) fn every_shape<T: Real>(k: T) -> Vec<Shape<T>> {
             CLOSED,
         ),
         shape("capsule", Capsule::new(o(), z(), half, half).unwrap().into(), CLOSED),
-        shape("skew capsule", Capsule::new(Vector3::x() * half, skew, k, half).unwrap().into(), CLOSED),
+        shape("skew capsule", Capsule::new(Vector3::x() * half, skew, half, k).unwrap().into(), CLOSED),
         shape(
             "cone",
             Cone::new(v(0.125, 0.0625, 1.03125) * k, -z(), T::frac_pi_4()).unwrap().into(),
@@ -114,8 +114,8 @@ pub(crate) fn every_shape<T: Real>(k: T) -> Vec<Shape<T>> {
             Cone::new(v(0.125, 0.0625, 0.03125) * k, skew, l(0.6)).unwrap().with_depth(k).unwrap().into(),
             [false, false, true],
         ),
-        shape("frustum", Frustum::new(-z() * half, z(), k, k, half).unwrap().into(), CLOSED),
-        shape("closed cone", Frustum::new(o(), z(), k, T::zero(), k).unwrap().into(), CLOSED),
+        shape("frustum", Frustum::new(-z() * half, z(), k, half, k).unwrap().into(), CLOSED),
+        shape("closed cone", Frustum::new(o(), z(), T::zero(), k, k).unwrap().into(), CLOSED),
         shape("torus", Torus::new(k, half).unwrap().into(), CLOSED),
         shape(
             "superquadric",

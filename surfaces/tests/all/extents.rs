@@ -34,11 +34,11 @@ fn balls_are_the_stated_ones() {
     assert_eq!(extent(&rectangle), (centre, 5.0));
     assert_eq!(extent(&Sphere::new(at, 2.0).unwrap()), (centre, 2.0));
     assert_eq!(extent(&Ellipsoid::new(v(1.0, 3.0, 2.0)).unwrap()), ([0.0; 3], 3.0));
-    assert_eq!(extent(&Capsule::new(at, z, 1.0, 2.0).unwrap()), (centre, 3.0));
+    assert_eq!(extent(&Capsule::new(at, z, 2.0, 1.0).unwrap()), (centre, 3.0));
     assert_eq!(extent(&Torus::new(2.0, 0.5).unwrap()), ([0.0; 3], 2.5));
     assert_eq!(extent(&RoundedBox::new(v(1.0, 2.0, 2.0), 0.5).unwrap()), ([0.0; 3], 3.0));
-    assert_eq!(extent(&Frustum::new(at, z, 8.0, 1.0, 3.0).unwrap()), ([1.0, -2.0, 4.5], 5.0));
-    assert_eq!(extent(&Frustum::new(at, z, 8.0, 3.0, 1.0).unwrap()), ([1.0, -2.0, 4.5], 5.0));
+    assert_eq!(extent(&Frustum::new(at, z, 1.0, 3.0, 8.0).unwrap()), ([1.0, -2.0, 4.5], 5.0));
+    assert_eq!(extent(&Frustum::new(at, z, 3.0, 1.0, 8.0).unwrap()), ([1.0, -2.0, 4.5], 5.0));
     let offset = Offset::new(Sphere::new(at, 2.0).unwrap(), -0.5).unwrap();
     assert_eq!(extent(&offset), (centre, 1.5));
     let hills = vec![0.0, 1.0, 3.0, 1.0, 0.0, -1.0];

@@ -32,7 +32,7 @@ macro_rules! laws {
                 let make = |$scale: T| $shape.ok();
                 let laws: SurfaceLaws<T> = $laws;
                 laws.check(&make(T::one()).unwrap()).unwrap();
-                laws.lines(200).check(&OnlyCrossings(make(T::one()).unwrap())).unwrap();
+                laws.with_lines(200).check(&OnlyCrossings(make(T::one()).unwrap())).unwrap();
                 laws.check_scaling(make).unwrap();
             }
 
@@ -50,12 +50,19 @@ macro_rules! laws {
 }
 
 fn around<T: Real>(x: f64, y: f64, z: f64, radius: f64) -> SurfaceLaws<T> {
-    SurfaceLaws::around(v(x, y, z), l(radius)).lines(1000)
+    SurfaceLaws::around(v(x, y, z), l(radius)).with_lines(1000)
 }
 
-laws!(plane, around(0.0, 0.0, 0.1, 1.0).open(), |k| Plane::new(v(0.0, 0.0, 0.1) * k, v(1.0, -2.0, 3.0)));
-laws!(disk, around(0.0, 0.0, 0.1, 1.0).open(), |k| Disk::new(v(0.0, 0.0, 0.1) * k, v(1.0, -2.0, 3.0), k));
-laws!(rectangle, around(0.0, 0.0, 0.1, 1.0).open(), |k| {
+laws!(plane, around(0.0, 0.0, 0.1, 1.0).without_inside(), |k| Plane::new(
+    v(0.0, 0.0, 0.1) * k,
+    v(1.0, -2.0, 3.0)
+));
+laws!(disk, around(0.0, 0.0, 0.1, 1.0).without_inside(), |k| Disk::new(
+    v(0.0, 0.0, 0.1) * k,
+    v(1.0, -2.0, 3.0),
+    k
+));
+laws!(rectangle, around(0.0, 0.0, 0.1, 1.0).without_inside(), |k| {
     Rectangle::new(v(0.0, 0.0, 0.1) * k, v(0.5, 0.0, 0.0) * k, v(0.0, 0.3, 0.4) * k)
 });
 laws!(sphere, around(0.3, -0.2, 0.1, 1.0), |k| Sphere::new(v(0.3, -0.2, 0.1) * k, k));
@@ -64,38 +71,38 @@ laws!(spherical_cap, around(0.3, -0.2, 0.1, 1.0), |k| {
 });
 laws!(ellipsoid, around(0.0, 0.0, 0.0, 1.2), |k| Ellipsoid::new(v(1.2, 0.8, 0.5) * k));
 laws!(flat_ellipsoid, around(0.0, 0.0, 0.0, 1.0), |k| Ellipsoid::new(v(1.0, 0.9, 0.1) * k));
-laws!(cylinder, around(0.3, -0.2, 0.1, 2.0).open(), |k| {
+laws!(cylinder, around(0.3, -0.2, 0.1, 2.0).without_inside(), |k| {
     Cylinder::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), k).and_then(|c| c.with_half_length(k))
 });
 laws!(capped_cylinder, around(0.3, -0.2, 0.1, 1.5).with_edges(), |k| {
     CappedCylinder::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), k * l(0.7), k)
 });
-laws!(open_elliptic_cylinder, around(0.0, 0.0, 0.0, 2.0).open(), |k| {
+laws!(open_elliptic_cylinder, around(0.0, 0.0, 0.0, 2.0).without_inside(), |k| {
     EllipticCylinder::new([k * l(1.0), k * l(0.4)], CylinderEnds::Open(k))
 });
-laws!(unbounded_elliptic_cylinder, around(0.0, 0.0, 0.0, 2.0).open(), |k| {
+laws!(unbounded_elliptic_cylinder, around(0.0, 0.0, 0.0, 2.0).without_inside(), |k| {
     EllipticCylinder::new([k * l(1.0), k * l(0.4)], CylinderEnds::Unbounded)
 });
 laws!(capped_elliptic_cylinder, around(0.0, 0.0, 0.0, 1.5).with_edges(), |k| {
     EllipticCylinder::new([k * l(1.0), k * l(0.4)], CylinderEnds::Capped(k))
 });
 laws!(capsule, around(0.3, -0.2, 0.1, 1.5), |k| {
-    Capsule::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), k, k * l(0.5))
+    Capsule::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), k * l(0.5), k)
 });
-laws!(cone, around(0.5, 0.2, 0.7, 1.5).open().with_edges(), |k| {
+laws!(cone, around(0.5, 0.2, 0.7, 1.5).without_inside().with_edges(), |k| {
     Cone::new(v(0.3, -0.2, 0.1) * k, v(1.0, 2.0, 3.0), l(0.6)).and_then(|c| c.with_depth(k))
 });
 laws!(frustum, around(0.3, -0.2, 0.1, 1.5).with_edges(), |k| {
-    Frustum::new(v(0.1, -0.6, -0.5) * k, v(1.0, 2.0, 3.0), k * l(1.5), k, k * l(0.4))
+    Frustum::new(v(0.1, -0.6, -0.5) * k, v(1.0, 2.0, 3.0), k, k * l(0.4), k * l(1.5))
 });
 laws!(widening_frustum, around(0.3, -0.2, 0.1, 1.5).with_edges(), |k| {
-    Frustum::new(v(0.1, -0.6, -0.5) * k, v(1.0, 2.0, 3.0), k * l(1.0), k * l(0.2), k)
+    Frustum::new(v(0.1, -0.6, -0.5) * k, v(1.0, 2.0, 3.0), k * l(0.2), k, k * l(1.0))
 });
 laws!(closed_cone, around(0.3, -0.2, 0.1, 1.5).with_edges(), |k| {
-    Frustum::new(v(0.1, -0.6, -0.5) * k, v(1.0, 2.0, 3.0), k * l(1.5), k, l(0.0))
+    Frustum::new(v(0.1, -0.6, -0.5) * k, v(1.0, 2.0, 3.0), k, l(0.0), k * l(1.5))
 });
-laws!(torus, around(0.0, 0.0, 0.0, 1.3).roundings(l(128.0)), |k| Torus::new(k, k * l(0.3)));
-laws!(fat_torus, around(0.0, 0.0, 0.0, 1.9).roundings(l(128.0)), |k| Torus::new(k, k * l(0.9)));
+laws!(torus, around(0.0, 0.0, 0.0, 1.3).with_roundings(l(128.0)), |k| Torus::new(k, k * l(0.3)));
+laws!(fat_torus, around(0.0, 0.0, 0.0, 1.9).with_roundings(l(128.0)), |k| Torus::new(k, k * l(0.9)));
 laws!(rounded_box, around(0.0, 0.0, 0.0, 1.3), |k| RoundedBox::new(v(1.0, 0.8, 0.4) * k, k * l(0.2)));
 laws!(sharp_box, around(0.0, 0.0, 0.0, 1.3).with_edges(), |k| RoundedBox::new(
     v(1.0, 0.8, 0.4) * k,
@@ -104,13 +111,13 @@ laws!(sharp_box, around(0.0, 0.0, 0.0, 1.3).with_edges(), |k| RoundedBox::new(
 laws!(round_superquadric, around(0.0, 0.0, 0.0, 1.3), |k| {
     Superquadric::new(v(1.0, 0.8, 0.5) * k, [l(0.7), l(1.2)])
 });
-laws!(boxy_superquadric, around(0.0, 0.0, 0.0, 1.5).roundings(l(256.0)).with_edges(), |k| {
+laws!(boxy_superquadric, around(0.0, 0.0, 0.0, 1.5).with_roundings(l(256.0)).with_edges(), |k| {
     Superquadric::new(v(1.0, 0.8, 0.5) * k, [l(0.1), l(0.1)])
 });
 laws!(octahedral_superquadric, around(0.0, 0.0, 0.0, 1.0).with_edges(), |k| {
     Superquadric::new(v(1.0, 0.8, 0.5) * k, [l(2.0), l(2.0)])
 });
-laws!(paraboloid, around(0.0, 0.0, -0.5, 1.0).open(), |k| {
+laws!(paraboloid, around(0.0, 0.0, -0.5, 1.0).without_inside(), |k| {
     Paraboloid::new([k * l(1.0), k * l(0.6)]).and_then(|p| p.with_depth(k))
 });
 laws!(sphere_of_revolution, around(0.0, 0.0, 0.0, 1.0), |k| {
@@ -149,16 +156,16 @@ laws!(seamless_compound, around(0.0, 0.0, 0.3, 1.6).with_edges(), |k| {
         Sphere::new(v(0.0, 0.0, 1.0) * k, k * l(0.5)).map(|ball| Compound::new(shaft, ball))
     })
 });
-laws!(offset_ellipsoid, around(0.0, 0.0, 0.0, 1.4).roundings(l(256.0)), |k| {
+laws!(offset_ellipsoid, around(0.0, 0.0, 0.0, 1.4).with_roundings(l(256.0)), |k| {
     Ellipsoid::new(v(1.2, 0.8, 0.5) * k).and_then(|e| Offset::new(e, k * l(0.2)))
 });
-laws!(inset_ellipsoid, around(0.0, 0.0, 0.0, 1.4).roundings(l(256.0)), |k| {
+laws!(inset_ellipsoid, around(0.0, 0.0, 0.0, 1.4).with_roundings(l(256.0)), |k| {
     Ellipsoid::new(v(1.2, 0.9, 0.8) * k).and_then(|e| Offset::new(e, k * l(-0.1)))
 });
 laws!(offset_box, around(0.0, 0.0, 0.0, 1.5), |k| {
     RoundedBox::new(v(1.0, 0.8, 0.4) * k, k * l(0.0)).and_then(|e| Offset::new(e, k * l(0.2)))
 });
-laws!(offset_torus, around(0.0, 0.0, 0.0, 1.4).roundings(l(256.0)).lines_few(), |k| {
+laws!(offset_torus, around(0.0, 0.0, 0.0, 1.4).with_roundings(l(256.0)).lines_few(), |k| {
     Torus::new(k, k * l(0.3)).and_then(|t| Offset::new(t, k * l(0.05)))
 });
 
@@ -168,7 +175,7 @@ trait Few {
 
 impl<T: Real> Few for SurfaceLaws<T> {
     fn lines_few(self) -> Self {
-        self.lines(200)
+        self.with_lines(200)
     }
 }
 
@@ -185,6 +192,6 @@ impl<T: Real> ImplicitSurface<T> for Pillow<T> {
     }
 }
 
-laws!(implicit_pillow, around(0.0, 0.0, 0.0, 1.3).roundings(l(256.0)).lines_few(), |k| Implicit::new(
+laws!(implicit_pillow, around(0.0, 0.0, 0.0, 1.3).with_roundings(l(256.0)).lines_few(), |k| Implicit::new(
     Pillow(k)
 ));

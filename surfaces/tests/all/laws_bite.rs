@@ -216,7 +216,7 @@ fn crossings_that_are_missing() {
         };
         assert_eq!(broken(&surface), Some(Law::AllCrossingsFound), "{grown}");
         // Of an open surface nobody asks for an inside.
-        assert_eq!(laws().open().check(&surface), Ok(()));
+        assert_eq!(laws().without_inside().check(&surface), Ok(()));
     }
 }
 
@@ -351,7 +351,7 @@ fn tolerances_are_what_they_are_set_to() {
         inside: right_inside,
     };
     assert!(laws().check(&rough).is_err());
-    assert_eq!(laws().roundings(1e4).gap_roundings(1e5).check(&rough), Ok(()));
+    assert_eq!(laws().with_roundings(1e4).with_gap_roundings(1e5).check(&rough), Ok(()));
     let gap = Faulty {
         crossing: right_crossing,
         approach: move |_: &Line<f64>, a: ClosestApproach<f64>| ClosestApproach { gap: a.gap + off, ..a },
@@ -361,5 +361,5 @@ fn tolerances_are_what_they_are_set_to() {
     };
     // 4096 roundings of a size of 1.37 are 1.2e-12.
     assert_eq!(laws().check(&gap), Ok(()));
-    assert!(laws().gap_roundings(1024.0).check(&gap).is_err());
+    assert!(laws().with_gap_roundings(1024.0).check(&gap).is_err());
 }

@@ -62,7 +62,7 @@ fn no_leak_in_double_precision() {
 
 fn laws<T: Real>() {
     let (vertices, triangles) = ball_of_triangles(12, 16, None);
-    let laws = SurfaceLaws::around(Vector3::zeros(), T::one()).with_edges().roundings(T::literal(128.0));
+    let laws = SurfaceLaws::around(Vector3::zeros(), T::one()).with_edges().with_roundings(T::literal(128.0));
     laws.check(&mesh::<T>(&vertices, &triangles)).unwrap();
     laws.check_scaling(|scale| {
         let vertices: Vec<_> = vertices.iter().map(|v| v.map(T::literal) * scale).collect();
@@ -180,7 +180,7 @@ fn duplicate_vertices_and_slivers_are_tolerated() {
     }
     let surface = Mesh::new(&loose, &split).unwrap();
     assert_eq!(surface.triangle_count(), 3 * triangles.len());
-    SurfaceLaws::around(Vector3::zeros(), 1.0).with_edges().roundings(1e7).check(&surface).unwrap();
+    SurfaceLaws::around(Vector3::zeros(), 1.0).with_edges().with_roundings(1e7).check(&surface).unwrap();
 }
 
 fn stl_text(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> String {

@@ -43,13 +43,13 @@ fn closed() -> Vec<(&'static str, DynSurface<f64>, Point, Vec<Point>)> {
         ),
         (
             "capsule",
-            Capsule::new(at, z, 1.0, 0.5).unwrap().into(),
+            Capsule::new(at, z, 0.5, 1.0).unwrap().into(),
             at,
             moved(&[[0.5, 0.0, 0.0], [0.0, -0.5, 1.0], [0.0, 0.0, 1.5], [0.0, 0.0, -1.5]]),
         ),
         (
             "frustum",
-            Frustum::new(at, z, 2.0, 2.0, 1.0).unwrap().into(),
+            Frustum::new(at, z, 2.0, 1.0, 2.0).unwrap().into(),
             at + z,
             moved(&[[1.5, 0.0, 1.0], [0.0, 1.5, 0.0], [0.5, 0.0, 2.0], [0.0, 0.0, 0.0]]),
         ),

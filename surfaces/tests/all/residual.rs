@@ -82,7 +82,7 @@ fn of_round_shapes() {
     told!(1.5, "cap", |k| SphericalCap::new(Sphere::new(at(k), k).unwrap(), Vector3::z(), l(-0.5)).unwrap());
     told!(1.0, "ellipsoid", |k| Ellipsoid::new(Vector3::new(l(1.0), l(0.5), l(0.75)) * k).unwrap());
     told!(1.0, "cylinder", |k| Cylinder::new(at(k), Vector3::x(), k * l(0.5)).unwrap());
-    told!(1.0, "capsule", |k| Capsule::new(at(k), Vector3::y(), k * l(0.5), k * l(0.25)).unwrap());
+    told!(1.0, "capsule", |k| Capsule::new(at(k), Vector3::y(), k * l(0.25), k * l(0.5)).unwrap());
     told!(1.0, "paraboloid", |k| Paraboloid::new([k, k * l(0.5)]).unwrap());
     told!(1.0, "superquadric", |k| {
         Superquadric::new(Vector3::new(l(1.0), l(0.5), l(0.75)) * k, [l(0.5), l(0.75)]).unwrap()
@@ -100,7 +100,7 @@ fn of_shapes_with_ends_and_flats() {
     told!(1.0, "capped cylinder", |k| {
         CappedCylinder::new(at(k), Vector3::y(), k * l(0.5), k * l(0.25)).unwrap()
     });
-    told!(1.0, "frustum", |k| Frustum::new(at(k), Vector3::z(), k, k * l(0.75), k * l(0.25)).unwrap());
+    told!(1.0, "frustum", |k| Frustum::new(at(k), Vector3::z(), k * l(0.75), k * l(0.25), k).unwrap());
     for ends in [CylinderEnds::Unbounded, CylinderEnds::Open(0.5), CylinderEnds::Capped(0.5)] {
         let [narrow, exact] = [[1.0, 0.5], [0.5, 1.0]];
         for axes in [narrow, exact] {

@@ -171,7 +171,7 @@ fn distances() {
         let v = |x, y, z| Vector3::new(n(x), n(y), n(z));
         note(unchanged, &format!("sphere {kind}"), Sphere::new(v(0.001, -0.002, 0.003), n(0.013)).unwrap());
         note(unchanged, &format!("ellipsoid {kind}"), Ellipsoid::new(v(0.008, 0.011, 0.017)).unwrap());
-        let capsule = Capsule::new(v(0.0, 0.001, 0.0), v(0.3, 0.1, 1.0), n(0.006), n(0.007)).unwrap();
+        let capsule = Capsule::new(v(0.0, 0.001, 0.0), v(0.3, 0.1, 1.0), n(0.007), n(0.006)).unwrap();
         note(unchanged, &format!("capsule {kind}"), capsule);
         let capped =
             CappedCylinder::new(v(0.001, 0.0, -0.001), v(0.2, -0.4, 1.0), n(0.009), n(0.010)).unwrap();

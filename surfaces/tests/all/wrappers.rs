@@ -6,7 +6,7 @@ use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::Vector3;
 
 fn laws<T: Real>() -> SurfaceLaws<T> {
-    SurfaceLaws::around(Vector3::zeros(), T::literal(1.3)).lines(200)
+    SurfaceLaws::around(Vector3::zeros(), T::literal(1.3)).with_lines(200)
 }
 
 fn v<T: Real>(x: f64, y: f64, z: f64) -> Vector3<T> {
@@ -44,7 +44,7 @@ fn check_named<T: Real, S: ActiveSurface<T> + Into<DynSurface<T>> + Clone>(laws:
 
 fn check_offset<T: Real, S: SignedDistance<T> + Copy>(laws: SurfaceLaws<T>, shape: S) {
     let none = Offset::new(shape, T::zero());
-    laws.roundings(T::literal(256.0)).check_wrapper(&shape, &none.unwrap(), Kept::Residual).unwrap();
+    laws.with_roundings(T::literal(256.0)).check_wrapper(&shape, &none.unwrap(), Kept::Residual).unwrap();
 }
 
 /// Every shape, in every wrapper.
@@ -66,13 +66,13 @@ fn every_shape<T: Real>() {
     let capped = CappedCylinder::new(v(0.1, -0.2, 0.1), axis(), l(0.7), l(0.8)).unwrap();
     check_named(edged, capped);
     check_named(edged, EllipticCylinder::new([l(1.0), l(0.4)], CylinderEnds::Capped(l(0.8))).unwrap());
-    let capsule = Capsule::new(v(0.1, -0.2, 0.1), axis(), l(0.6), l(0.5)).unwrap();
+    let capsule = Capsule::new(v(0.1, -0.2, 0.1), axis(), l(0.5), l(0.6)).unwrap();
     check_named(laws, capsule);
     check_named(edged, Cone::new(v(0.3, -0.2, -0.4), axis(), l(0.6)).unwrap().with_depth(l(1.0)).unwrap());
-    let frustum = Frustum::new(v(0.1, -0.6, -0.5), axis(), l(1.5), l(0.8), l(0.4)).unwrap();
+    let frustum = Frustum::new(v(0.1, -0.6, -0.5), axis(), l(0.8), l(0.4), l(1.5)).unwrap();
     check_named(edged, frustum);
     let torus = Torus::new(l(0.9), l(0.3)).unwrap();
-    check_named(laws.roundings(l(128.0)), torus);
+    check_named(laws.with_roundings(l(128.0)), torus);
     let rounded = RoundedBox::new(v(1.0, 0.8, 0.4), l(0.2)).unwrap();
     check_named(laws, rounded);
     check_named(laws, Superquadric::new(v(1.0, 0.8, 0.5), [l(0.7), l(1.2)]).unwrap());

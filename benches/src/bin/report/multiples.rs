@@ -68,17 +68,30 @@ fn methods(diagrams: &[Diagram]) -> Vec<String> {
     names
 }
 
-fn class(series: &Series, methods: &[String]) -> String {
+/// The place of its method in the key, and its class in the style sheet.
+fn class(series: &Series, methods: &[String]) -> (usize, String) {
     let name = method(series);
     let place = methods.iter().position(|other| *other == name).unwrap_or(0);
-    format!("m{}{}", place % COLOURS, if series.single { " hollow" } else { "" })
+    (place, format!("m{}{}", place % COLOURS, if series.single { " hollow" } else { "" }))
 }
 
-/// Which method has which colour, once for all diagrams of a part.
+/// A point of a method: a square where the colours begin anew.
+fn mark(place: usize, class: &str, x: f64, y: f64) -> String {
+    if place < COLOURS {
+        format!("<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\"/>")
+    } else {
+        let (left, top) = (x - 3.0, y - 3.0);
+        format!("<rect class=\"{class}\" x=\"{left:.1}\" y=\"{top:.1}\" width=\"6\" height=\"6\"/>")
+    }
+}
+
+/// Which method has which colour and mark, once for all diagrams of a part.
 fn key(diagrams: &[Diagram], methods: &[String]) -> String {
     let mut text = String::from("<p class=\"key\">");
     for (place, name) in methods.iter().enumerate() {
-        let _ = write!(text, "<span class=\"m{}\">●</span> {} ", place % COLOURS, escaped(name));
+        let mark = if place < COLOURS { '●' } else { '■' };
+        let (colour, name) = (place % COLOURS, escaped(name));
+        let _ = write!(text, "<span class=\"method\"><span class=\"m{colour}\">{mark}</span> {name}</span> ");
     }
     if diagrams.iter().flat_map(|diagram| &diagram.series).any(|series| series.single) {
         text.push_str("— hollow: f32");
@@ -136,19 +149,14 @@ fn figure(diagram: &Diagram, methods: &[String]) -> String {
         let _ = writeln!(svg, "<polyline class=\"front\" points=\"{}\"/>", corners.join(" "));
     }
     for series in &diagram.series {
-        let class = class(series, methods);
+        let (method, class) = class(series, methods);
         let points: Vec<&(f64, f64)> = series.points.iter().filter(|p| inside(p)).collect();
         if series.joined && points.len() > 1 {
             let corners: Vec<String> = points.iter().map(|p| place(p)).collect();
             let _ = writeln!(svg, "<polyline class=\"{class}\" points=\"{}\"/>", corners.join(" "));
         }
         for point in points {
-            let _ = writeln!(
-                svg,
-                "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"3\"/>",
-                across(point.0),
-                up(point.1)
-            );
+            let _ = writeln!(svg, "{}", mark(method, &class, across(point.0), up(point.1)));
         }
     }
     format!(

@@ -70,7 +70,11 @@ fn column<T: Real>() -> Result<Vec<(&'static str, f64)>, Failure> {
     let mut rows = vec![
         (
             "ratio threshold",
-            detector(&samples, 1e-3, RatioThreshold::new(gate, T::literal(0.6), T::literal(0.9))?),
+            detector(
+                &samples,
+                1e-3,
+                RatioThreshold::new(gate, T::literal(0.6))?.with_warning_share(T::literal(0.9))?,
+            ),
         ),
         ("drop, 1 kHz", detector(&samples, 1e-3, drops)),
         ("drop, 10 kHz (averages)", detector(&samples, 1e-4, drops)),
@@ -84,7 +88,7 @@ fn column<T: Real>() -> Result<Vec<(&'static str, f64)>, Failure> {
             detector(&samples, 1e-3, LikelihoodRatioDetector::<T, 64>::new(noise, 1.0, 1000.0)?),
         ),
     ];
-    let mut incipient = IncipientSlip::new(gate, T::literal(4e-6), T::literal(0.65))?;
+    let mut incipient = IncipientSlip::new(gate, T::literal(4e-6))?.with_warning_share(T::literal(0.65))?;
     // To and fro by 0.2 mm at 0.2 mm/s, sampled at 1 kHz: a place every third sample.
     let places: Vec<_> = (0..BATCH)
         .map(|index| {

@@ -43,7 +43,9 @@ impl Kind {
         mu: f64,
     ) -> Result<Box<dyn SlipDetector<f64>>, Failure> {
         Ok(match self {
-            Self::Threshold => Box::new(RatioThreshold::new(NormalForceGate::from_noise(&noise), mu, 0.9)?),
+            Self::Threshold => Box::new(
+                RatioThreshold::new(NormalForceGate::from_noise(&noise), mu)?.with_warning_share(0.9)?,
+            ),
             Self::Drop => Box::new(DropDetector::new(noise)?),
             Self::CumulativeSum { allowance, threshold } => {
                 let sum = match threshold {

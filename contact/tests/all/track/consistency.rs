@@ -100,7 +100,7 @@ fn holds<S: ActiveSurface<f64>>(surface: &S, force: f64, courses: u32) {
 }
 
 fn capsule() -> Capsule<f64> {
-    Capsule::new(Vector3::zeros(), Vector3::z(), 0.005, 0.009).unwrap()
+    Capsule::new(Vector3::zeros(), Vector3::z(), 0.009, 0.005).unwrap()
 }
 
 fn mesh() -> Mesh<f64> {

@@ -187,7 +187,7 @@ fn settings_out_of_range_are_named() {
 /// The other side of the body is another contact, however the planes lie.
 #[test]
 fn the_other_side_is_another_contact() {
-    let bar = Capsule::new(Vector3::zeros(), Vector3::x(), 0.01, 0.5e-3).unwrap();
+    let bar = Capsule::new(Vector3::zeros(), Vector3::x(), 0.5e-3, 0.01).unwrap();
     let frame = [Vector3::x(), Vector3::y()];
     let covariance = Matrix2::identity() * 1e-6;
     let above = Sighting::new(Vector3::z() * 0.5e-3, Vector3::z(), frame, covariance).unwrap();

@@ -24,8 +24,8 @@ use crate::{SourceError, SourceErrorKind};
 #[non_exhaustive]
 pub enum LineError<E, F> {
     /// The line failed.
-    #[error("serial line: {0:?}")]
-    Line(E),
+    #[error("serial line: {0}")]
+    Line(#[source] E),
     /// No byte came in time.
     #[error("no byte came in time; is the sensor on, streaming, and the line at its baud rate?")]
     Timeout,

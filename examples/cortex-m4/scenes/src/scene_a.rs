@@ -41,7 +41,7 @@ impl Scene<6> for SceneA {
             .solver(Decoupled::new(&Self::sensor()?).ok()?)
             .contact(Sphere::centred(13e-3).ok()?, PointContact::new(LEAST_FORCE).ok()?)
             .friction(Coulomb::new(FRICTION).ok()?)
-            .slip_detector(RatioThreshold::new(gate, FRICTION, 0.75).ok()?)
+            .slip_detector(RatioThreshold::new(gate, FRICTION).ok()?.with_warning_share(0.75).ok()?)
             .build();
         Some(Self { fingertip })
     }

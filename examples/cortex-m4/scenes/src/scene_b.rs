@@ -43,7 +43,7 @@ impl Scene<6> for SceneB {
                 SoftFinger::new(LEAST_FORCE).ok()?,
             )
             .friction(SoftFingerLimit::new(FRICTION, 2e-3).ok()?)
-            .slip_detector(RatioThreshold::new(gate, FRICTION, 0.75).ok()?)
+            .slip_detector(RatioThreshold::new(gate, FRICTION).ok()?.with_warning_share(0.75).ok()?)
             .build();
         Some(Self { fingertip })
     }

@@ -64,7 +64,7 @@ impl Scene<8> for SceneC {
             .zero(Self::tare()?)
             .solver(solver)
             .contact(
-                Capsule::new(Vector3::zeros(), Vector3::x(), 4e-3, 9e-3).ok()?,
+                Capsule::new(Vector3::zeros(), Vector3::x(), 9e-3, 4e-3).ok()?,
                 PointContact::new(LEAST_FORCE).ok()?,
             )
             .friction(Coulomb::new(FRICTION).ok()?)

@@ -12,7 +12,7 @@ mod scene;
 use core::mem::MaybeUninit;
 
 use fingertip::contact::Resolution;
-use nalgebra::Vector3;
+use fingertip::nalgebra::Vector3;
 
 #[repr(C)]
 pub struct Touch {

@@ -104,8 +104,7 @@ impl CLibrary {
         format!(
             "[package]\nname = \"{}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
              [lib]\npath = \"lib.rs\"\ncrate-type = [\"staticlib\"]\n\n\
-             [dependencies]\nfingertip = {{ {fingertip}, default-features = false, features = [{}] }}\n\
-             nalgebra = {{ version = \"0.35\", default-features = false }}\n\n\
+             [dependencies]\nfingertip = {{ {fingertip}, default-features = false, features = [{}] }}\n\n\
              [profile.release]\nopt-level = 3\ncodegen-units = 1\nlto = \"fat\"\npanic = \"abort\"\n\n[workspace]\n",
             self.name,
             features.join(", ")

@@ -12,7 +12,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -28,9 +27,9 @@
 //     covariance(&tip, &touch, &noise, &geometry)
 // whose `ellipse(0.95)` is that of the scene.
 
+use fingertip::nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use fingertip::{Absent, Fingertip};
 use fingertip::{contact, surfaces, wrench};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -48,7 +47,7 @@ pub type Tip = Fingertip<
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
     let surface = surfaces::Posed::new(
-        surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?,
+        surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?,
         wrench::RigidTransform::from_matrix(
             Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
             Vector3::new(0.0, 0.0, 0.02),

@@ -10,7 +10,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -22,9 +21,9 @@
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 
+use fingertip::nalgebra::Vector3;
 use fingertip::{Absent, Fingertip};
 use fingertip::{contact, surfaces, wrench};
-use nalgebra::Vector3;
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -41,7 +40,7 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::Capsule::new(Vector3::new(0.03, 0.0, 0.0), Vector3::x(), 0.01, 0.007)?;
+    let surface = surfaces::Capsule::new(Vector3::new(0.03, 0.0, 0.0), Vector3::x(), 0.007, 0.01)?;
     let model = contact::PointContact::new(0.2)?.with_greatest_friction(2.0)?;
     Ok(Fingertip::builder()
         .contact(surface, model)

@@ -12,7 +12,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -30,9 +29,9 @@
 //
 // `let mut filter = Filter::default()` is the filter; after a pause, `filter.start_anew()`.
 
+use fingertip::nalgebra::{Matrix3, Vector3, Vector6};
 use fingertip::{Absent, Fingertip};
 use fingertip::{contact, surfaces, wrench};
-use nalgebra::{Matrix3, Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<

@@ -13,7 +13,6 @@ pub mod filter_low_pass {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -27,9 +26,9 @@ pub mod filter_low_pass {
     //
     // `let mut filter = Filter::default()` is the filter; after a pause, `filter.start_anew()`.
 
+    use fingertip::nalgebra::{Vector3, Vector6};
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::{Vector3, Vector6};
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -110,7 +109,6 @@ pub mod filter_notch {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -124,9 +122,9 @@ pub mod filter_notch {
     //
     // `let mut filter = Filter::default()` is the filter; after a pause, `filter.start_anew()`.
 
+    use fingertip::nalgebra::{Vector3, Vector6};
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::{Vector3, Vector6};
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -205,7 +203,6 @@ pub mod surface_plane {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -217,9 +214,9 @@ pub mod surface_plane {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -263,7 +260,6 @@ pub mod surface_disk {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -275,9 +271,9 @@ pub mod surface_disk {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -322,7 +318,6 @@ pub mod surface_rectangle {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -334,9 +329,9 @@ pub mod surface_rectangle {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -384,7 +379,6 @@ pub mod surface_sphere {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -396,9 +390,9 @@ pub mod surface_sphere {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -442,7 +436,6 @@ pub mod surface_ellipsoid {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -454,9 +447,9 @@ pub mod surface_ellipsoid {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -500,7 +493,6 @@ pub mod surface_cylinder {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -512,9 +504,9 @@ pub mod surface_cylinder {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -558,7 +550,6 @@ pub mod surface_capped_cylinder {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -570,9 +561,9 @@ pub mod surface_capped_cylinder {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -617,7 +608,6 @@ pub mod surface_elliptic_cylinder {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -629,9 +619,9 @@ pub mod surface_elliptic_cylinder {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -675,7 +665,6 @@ pub mod surface_capsule {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -687,9 +676,9 @@ pub mod surface_capsule {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -706,7 +695,7 @@ pub mod surface_capsule {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?;
+        let surface = surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?;
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -733,7 +722,6 @@ pub mod surface_cone {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -745,9 +733,9 @@ pub mod surface_cone {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -796,7 +784,6 @@ pub mod surface_frustum {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -808,9 +795,9 @@ pub mod surface_frustum {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -827,7 +814,7 @@ pub mod surface_frustum {
     /// Never for the numbers below.
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
-        let surface = surfaces::Frustum::new(Vector3::zeros(), Vector3::z(), 0.02, 0.012, 0.006)?;
+        let surface = surfaces::Frustum::new(Vector3::zeros(), Vector3::z(), 0.012, 0.006, 0.02)?;
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
             .contact(surface, model)
@@ -854,7 +841,6 @@ pub mod surface_torus {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -866,9 +852,9 @@ pub mod surface_torus {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -913,7 +899,6 @@ pub mod surface_superquadric {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -925,9 +910,9 @@ pub mod surface_superquadric {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -972,7 +957,6 @@ pub mod surface_rounded_box {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -984,9 +968,9 @@ pub mod surface_rounded_box {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1031,7 +1015,6 @@ pub mod surface_paraboloid {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1043,9 +1026,9 @@ pub mod surface_paraboloid {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1090,7 +1073,6 @@ pub mod surface_revolution {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1102,9 +1084,9 @@ pub mod surface_revolution {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1151,7 +1133,6 @@ pub mod surface_heightfield {
     // It needs a heap, but no standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "alloc"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1165,9 +1146,9 @@ pub mod surface_heightfield {
 
     extern crate alloc;
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     static HEIGHTS_M_0: [f64; 4] = [
         0.01,
@@ -1220,7 +1201,6 @@ pub mod surface_mesh {
     // It needs a heap, but no standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "alloc"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1232,9 +1212,9 @@ pub mod surface_mesh {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     static VERTICES_M_0: [Vector3<f64>; 4] = [
         Vector3::new(0.01, 0.0, 0.0),
@@ -1323,7 +1303,6 @@ pub mod surface_formula {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1335,9 +1314,9 @@ pub mod surface_formula {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::{ComplexField, Vector3};
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::{ComplexField, Vector3};
 
     /// The shape: zero on the surface, negative inside.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1408,7 +1387,6 @@ pub mod surface_posed {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1420,9 +1398,9 @@ pub mod surface_posed {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::{Matrix3, Vector3};
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::{Matrix3, Vector3};
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1440,7 +1418,7 @@ pub mod surface_posed {
     #[allow(clippy::approx_constant)]
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Posed::new(
-            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.01, 0.008)?,
+            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?,
             wrench::RigidTransform::from_matrix(
                 Matrix3::new(6.123233995736766e-17, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 6.123233995736766e-17),
                 Vector3::new(0.0, 0.0, 0.01),
@@ -1502,7 +1480,6 @@ pub mod surface_trimmed {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1514,9 +1491,9 @@ pub mod surface_trimmed {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1564,7 +1541,6 @@ pub mod surface_compound {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1576,9 +1552,9 @@ pub mod surface_compound {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1597,7 +1573,7 @@ pub mod surface_compound {
     pub fn tip() -> Result<Tip, BadTip> {
         let surface = surfaces::Compound::new(
             surfaces::Sphere::new(Vector3::zeros(), 0.01)?,
-            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.012, 0.006)?,
+            surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.006, 0.012)?,
         );
         let model = contact::PointContact::new(0.0)?;
         Ok(Fingertip::builder()
@@ -1627,7 +1603,6 @@ pub mod contact_point {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1643,9 +1618,9 @@ pub mod contact_point {
     //     covariance(&tip, &touch, &noise)
     // whose `ellipse(0.95)` is that of the scene.
 
+    use fingertip::nalgebra::{Vector3, Vector6};
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::{Vector3, Vector6};
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1718,7 +1693,6 @@ pub mod contact_soft_finger {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1734,9 +1708,9 @@ pub mod contact_soft_finger {
     //     covariance(&tip, &touch, &noise)
     // whose `ellipse(0.95)` is that of the scene.
 
+    use fingertip::nalgebra::{Vector3, Vector6};
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::{Vector3, Vector6};
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1805,7 +1779,6 @@ pub mod contact_auto {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1821,9 +1794,9 @@ pub mod contact_auto {
     //     covariance(&tip, &touch, &noise)
     // whose `ellipse(0.95)` is that of the scene.
 
+    use fingertip::nalgebra::{Matrix6, Vector3, Vector6};
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::{Matrix6, Vector3, Vector6};
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1902,7 +1875,6 @@ pub mod contact_skin_linear {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1914,9 +1886,9 @@ pub mod contact_skin_linear {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -1966,7 +1938,6 @@ pub mod contact_skin_power {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1978,9 +1949,9 @@ pub mod contact_skin_power {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2030,7 +2001,6 @@ pub mod contact_skin_hertz {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2042,9 +2012,9 @@ pub mod contact_skin_hertz {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2097,7 +2067,6 @@ pub mod contact_skin_local_hertz {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2109,9 +2078,9 @@ pub mod contact_skin_local_hertz {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2165,7 +2134,6 @@ pub mod contact_skin_table {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2177,9 +2145,9 @@ pub mod contact_skin_table {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip};
     use fingertip::{contact, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2227,7 +2195,6 @@ pub mod friction_coulomb {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2239,9 +2206,9 @@ pub mod friction_coulomb {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2317,7 +2284,6 @@ pub mod friction_anisotropic {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2329,9 +2295,9 @@ pub mod friction_anisotropic {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2407,7 +2373,6 @@ pub mod friction_soft_finger {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2419,9 +2384,9 @@ pub mod friction_soft_finger {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2497,7 +2462,6 @@ pub mod friction_power {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2509,9 +2473,9 @@ pub mod friction_power {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2588,7 +2552,6 @@ pub mod friction_load_dependent {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2600,9 +2563,9 @@ pub mod friction_load_dependent {
     //     let touch = tip.sense_wrench(load(force, torque), step);
     //     last = touch.point();
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2678,7 +2641,6 @@ pub mod friction_uncertain {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2693,9 +2655,9 @@ pub mod friction_uncertain {
     // With `let model = friction_model()?`, the probability that the contact slips is
     //     model.slip_probability(&force)
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2779,7 +2741,6 @@ pub mod slip_drop {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2793,9 +2754,9 @@ pub mod slip_drop {
     //
     // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2873,7 +2834,6 @@ pub mod slip_threshold {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2887,9 +2847,9 @@ pub mod slip_threshold {
     //
     // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -2915,8 +2875,7 @@ pub mod slip_threshold {
                 friction::RatioThreshold::new(
                     friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?),
                     0.5,
-                    0.8,
-                )?,
+                )?.with_warning_share(0.8)?,
             )
             .build())
     }
@@ -2973,7 +2932,6 @@ pub mod slip_likelihood_ratio {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2987,9 +2945,9 @@ pub mod slip_likelihood_ratio {
     //
     // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -3071,7 +3029,6 @@ pub mod slip_stick_slip {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -3085,9 +3042,9 @@ pub mod slip_stick_slip {
     //
     // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<
@@ -3169,7 +3126,6 @@ pub mod slip_adaptive_drop {
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
     //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-    //   nalgebra = { version = "0.35", default-features = false }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -3183,9 +3139,9 @@ pub mod slip_adaptive_drop {
     //
     // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 
+    use fingertip::nalgebra::Vector3;
     use fingertip::{Absent, Fingertip, Present};
     use fingertip::{contact, friction, surfaces, wrench};
-    use nalgebra::Vector3;
 
     /// The pipeline.
     pub type Tip = Fingertip<

@@ -11,7 +11,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -23,9 +22,9 @@
 //     let touch = tip.sense_wrench(load(force, torque), step);
 //     last = touch.point();
 
+use fingertip::nalgebra::{ComplexField, RealField, Vector3};
 use fingertip::{Absent, Fingertip};
 use fingertip::{contact, surfaces, wrench};
-use nalgebra::{ComplexField, RealField, Vector3};
 
 /// The shape: zero on the surface, negative inside.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,7 +15,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -24,16 +23,16 @@
 //     let (mut tip, mut last) = (tip()?, None);
 //
 //     let step = fingertip::Step::of(time_step).with_last(last);
-//     let touch = tip.sense(&reading, step); // reading: nalgebra::SVector<f64, 6>
+//     let touch = tip.sense(&reading, step); // reading: fingertip::nalgebra::SVector<f64, 6>
 //     last = touch.point();
 //
 // A gauge at or below -10.0, or at or above 10.0, is saturated: leave such a reading out.
 //
 // The sensor is unloaded for 1.0 s at the start: a `wrench::TareAccumulator` makes a zero of it, which `tip.set_zero` puts in place.
 
+use fingertip::nalgebra::{SVector, Vector3};
 use fingertip::{Absent, Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{SVector, Vector3};
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -121,7 +120,7 @@ fn opposite(
 
 /// The calibration of the sensor.
 pub mod calibration {
-    use fingertip::wrench as fingertip_wrench;
+    use fingertip::{nalgebra, wrench as fingertip_wrench};
 
     // Calibration fnv1a64:2c3ebf55dbb6b578, written by fingertip-calibration 0.1.0.
     // Quality: unchecked

@@ -13,7 +13,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction", "fusion"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -32,9 +31,9 @@
 // With `let noise = wrench_noise()?`, wrench and array together are
 //     fused(&tip, &touch, &noise, &[(centroid, normal_force)])
 
+use fingertip::nalgebra::{Matrix3, Vector3, Vector6};
 use fingertip::{Absent, Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{Matrix3, Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<

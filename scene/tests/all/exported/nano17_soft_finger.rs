@@ -17,7 +17,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -33,9 +32,9 @@
 //     covariance(&tip, &touch, &noise, &geometry)
 // whose `ellipse(0.95)` is that of the scene.
 
+use fingertip::nalgebra::{Matrix3, Vector3, Vector6};
 use fingertip::{Absent, Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{Matrix3, Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<

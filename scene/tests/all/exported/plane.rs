@@ -12,7 +12,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -26,9 +25,9 @@
 //
 // After a pause, `last = None` and `friction::SlipDetector::<f64>::reset(&mut tip.detector_mut().0)`.
 
+use fingertip::nalgebra::Vector3;
 use fingertip::{Absent, Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::Vector3;
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -54,8 +53,7 @@ pub fn tip() -> Result<Tip, BadTip> {
             friction::RatioThreshold::new(
                 friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?),
                 0.5,
-                0.8,
-            )?,
+            )?.with_warning_share(0.8)?,
         )
         .build())
 }

@@ -12,7 +12,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -21,14 +20,14 @@
 //     let (mut tip, mut last) = (tip()?, None);
 //
 //     let step = fingertip::Step::of(time_step).with_last(last);
-//     let touch = tip.sense(&reading, step); // reading: nalgebra::SVector<f32, 8>
+//     let touch = tip.sense(&reading, step); // reading: fingertip::nalgebra::SVector<f32, 8>
 //     last = touch.point();
 //
 // After a pause, `last = None` and `friction::SlipDetector::<f32>::reset(&mut tip.detector_mut().0)`.
 
+use fingertip::nalgebra::{SVector, Vector3};
 use fingertip::{Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{SVector, Vector3};
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -57,8 +56,7 @@ pub fn tip() -> Result<Tip, BadTip> {
             friction::RatioThreshold::new(
                 friction::NormalForceGate::from_noise(&friction::ForceNoise::isotropic(0.01)?),
                 0.5,
-                0.8,
-            )?,
+            )?.with_warning_share(0.8)?,
         )
         .build())
 }
@@ -115,7 +113,7 @@ impl From<wrench::LeastSquaresError> for BadTip {
 
 /// The calibration of the sensor.
 pub mod calibration {
-    use fingertip::wrench as fingertip_wrench;
+    use fingertip::{nalgebra, wrench as fingertip_wrench};
 
     // Calibration fnv1a64:8a1ca471024c78dd, written by fingertip-calibration 0.1.0.
     // Quality: unchecked

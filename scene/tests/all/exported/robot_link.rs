@@ -10,7 +10,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -24,9 +23,9 @@
 //
 // The sensor is unloaded for 0.5 s at the start: the mean of force and torque there is to be taken off both.
 
+use fingertip::nalgebra::{Matrix3, Vector3};
 use fingertip::{Absent, Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{Matrix3, Vector3};
 
 /// The pipeline.
 pub type Tip = Fingertip<

@@ -17,7 +17,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction", "skin"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -56,9 +55,9 @@
 //         None => grip.present(),
 //     }
 
+use fingertip::nalgebra::Vector3;
 use fingertip::{Absent, Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::Vector3;
 
 /// The pipeline.
 pub type Tip = Fingertip<

@@ -18,7 +18,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction", "skin"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -27,7 +26,7 @@
 //     let (mut tip, mut last) = (tip()?, None);
 //
 //     let step = fingertip::Step::of(time_step).with_last(last);
-//     let touch = tip.sense(&reading, step); // reading: nalgebra::SVector<f64, 6>
+//     let touch = tip.sense(&reading, step); // reading: fingertip::nalgebra::SVector<f64, 6>
 //     last = touch.point();
 //
 // The sensor is unloaded for 1.0 s at the start: a `wrench::TareAccumulator` makes a zero of it, which `tip.set_zero` puts in place.
@@ -44,9 +43,9 @@
 //         None => grip.present(),
 //     }
 
+use fingertip::nalgebra::{Matrix3, Matrix6, SVector, Vector3, Vector6};
 use fingertip::{Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{Matrix3, Matrix6, SVector, Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -312,7 +311,7 @@ impl From<wrench::BadRegion> for BadTip {
 
 /// The calibration of the sensor.
 pub mod calibration {
-    use fingertip::wrench as fingertip_wrench;
+    use fingertip::{nalgebra, wrench as fingertip_wrench};
 
     // Calibration fnv1a64:73dc0cf50d35d66a, written by fingertip-calibration 0.1.0.
     // Quality: unchecked

@@ -18,7 +18,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction", "skin"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -44,9 +43,9 @@
 //         None => grip.present(),
 //     }
 
+use fingertip::nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use fingertip::{Fingertip, Present};
 use fingertip::{contact, friction, surfaces, wrench};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<
@@ -329,7 +328,7 @@ fn opposite(
 
 /// The calibration of the sensor.
 pub mod calibration {
-    use fingertip::wrench as fingertip_wrench;
+    use fingertip::{nalgebra, wrench as fingertip_wrench};
 
     // Calibration fnv1a64:c36bbdec38de87c3, written by fingertip-calibration 0.1.0.
     // Quality: unchecked

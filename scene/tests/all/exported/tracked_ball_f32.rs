@@ -11,7 +11,6 @@
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
 //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "track"] }
-//   nalgebra = { version = "0.35", default-features = false }
 //
 // With a standard library, "std" in the place of "libm".
 //
@@ -34,9 +33,9 @@
 // With `let mut events = contact_events()?`, touch, release and blow are told by
 //     events.observe(&touch.wrench.force(), time_step)
 
+use fingertip::nalgebra::{Vector3, Vector6};
 use fingertip::{Absent, Fingertip};
 use fingertip::{contact, surfaces, wrench};
-use nalgebra::{Vector3, Vector6};
 
 /// The pipeline.
 pub type Tip = Fingertip<

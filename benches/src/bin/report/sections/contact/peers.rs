@@ -77,14 +77,14 @@ pub(super) fn beside_parry(study: &mut Study<'_>) -> Result<(), Failure> {
     }
     use fingertip_surfaces::{CappedCylinder, Capsule, Frustum};
     fn capsule<T: Real>() -> Result<Capsule<T>, Failure> {
-        Ok(Capsule::new(Vector3::zeros(), Vector3::y(), T::literal(0.5), T::literal(0.75))?)
+        Ok(Capsule::new(Vector3::zeros(), Vector3::y(), T::literal(0.75), T::literal(0.5))?)
     }
     fn cylinder<T: Real>() -> Result<CappedCylinder<T>, Failure> {
         Ok(CappedCylinder::new(Vector3::zeros(), Vector3::y(), T::literal(0.75), T::literal(0.5))?)
     }
     fn cone<T: Real>() -> Result<Frustum<T>, Failure> {
         let base = Vector3::y() * T::literal(-0.5);
-        Ok(Frustum::new(base, Vector3::y(), T::one(), T::literal(0.75), T::zero())?)
+        Ok(Frustum::new(base, Vector3::y(), T::literal(0.75), T::zero(), T::one())?)
     }
     pair!("sphere", Sphere::centred(1.0_f32)?, Sphere::centred(1.0_f64)?, shape::Ball::new(1.0));
     pair!("capsule", capsule::<f32>()?, capsule::<f64>()?, shape::Capsule::new_y(0.5, 0.75));
