@@ -235,7 +235,7 @@ fn a_rate_that_cannot_be_gives_no_times() {
 }
 
 /// A simulator, and where its page is.
-fn simulator_with_page() -> (fingertip_drivers::devices::NetworkSimulator, std::net::SocketAddr) {
+fn simulator_with_page() -> (fingertip_drivers::devices::NetworkSimulator, core::net::SocketAddr) {
     use fingertip_drivers::devices::{Serving, Simulator, devices};
 
     let device = devices().iter().find(|device| device.name == "ati").unwrap();
@@ -255,7 +255,7 @@ fn simulator_with_page() -> (fingertip_drivers::devices::NetworkSimulator, std::
 }
 
 /// All that is answered to a request, until the connection is closed.
-fn answer_to(page: std::net::SocketAddr, pieces: &[&[u8]], pause: Duration) -> Vec<u8> {
+fn answer_to(page: core::net::SocketAddr, pieces: &[&[u8]], pause: Duration) -> Vec<u8> {
     use std::io::{Read as _, Write as _};
 
     let mut stream = std::net::TcpStream::connect(page).unwrap();
@@ -313,7 +313,7 @@ fn the_page_refuses_what_is_no_request_for_it() {
     begins(&asked(&[&[b'x'; 30_000]], 0), "HTTP/1.0 431 ");
     begins(&asked(&[&[0x16, 3, 1, 0, 5, b'\r', b'\n', b'\r', b'\n']], 0), "HTTP/1.0 405 ");
     // Each byte comes soon after the last one, and the whole never.
-    let drips: Vec<&[u8]> = std::iter::repeat_n(&b"G"[..], 100).collect();
+    let drips: Vec<&[u8]> = core::iter::repeat_n(&b"G"[..], 100).collect();
     assert_eq!(String::from_utf8_lossy(&asked(&drips, 20)), "");
     // Nothing of this keeps the next one from the page.
     assert!(RdtClient::<f64>::configuration(page, Duration::from_secs(5)).is_ok());
