@@ -304,12 +304,23 @@ fn a_pseudo_terminal_that_is_pulled_is_an_error() {
     use fingertip_drivers::sensors::bota_serial::Frame;
     use serialport::{SerialPort as _, TTYPort};
     use std::io::Write as _;
+    use std::os::fd::AsRawFd as _;
 
     let folder = Folder::new();
     let (mut sensor, line) = TTYPort::pair().unwrap();
     let address = format!("bota://{}", line.name().unwrap());
-    let mut child = folder
-        .command(&["record", &address, "-o", "a.csv", "--silence", "60"])
+    let command = folder.command(&["record", &address, "-o", "a.csv", "--silence", "60"]);
+    // A child has both ends of the line, too: as long as it holds them nothing is pulled out.
+    let close = "exec {first}>&- {second}>&-; exec \"$@\"";
+    let envs = command.get_envs().filter_map(|(name, value)| Some((name, value?)));
+    let mut child = std::process::Command::new("bash")
+        .args(["-c", &format!("first=$1 second=$2; shift 2; {close}"), "bash"])
+        .args([sensor.as_raw_fd().to_string(), line.as_raw_fd().to_string()])
+        .arg(command.get_program())
+        .args(command.get_args())
+        .envs(envs)
+        .current_dir(folder.path("."))
+        .stdin(std::process::Stdio::null())
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped())
         .spawn()
@@ -329,6 +340,8 @@ fn a_pseudo_terminal_that_is_pulled_is_an_error() {
     let samples = Contacts::parse(&folder.read("a.csv")).len();
     let expected = format!("s after the first sample, behind {samples} samples, which are recorded");
     assert!(samples > 0 && error.contains(&expected), "{error}");
+    // And not that it fell silent.
+    assert!(error.contains("the line was closed"), "{error}");
     assert!(!error.contains("Custom {") && !error.contains("os error 5"), "{error}");
 }
 
