@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::error::CliError;
 
-/// `--start` and `--end`.
+/// `--start` and `--end`: a row at either edge is within.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct Span {
     /// Leave out what comes before so many seconds behind the first row; a rest that a scene states is taken as ever
@@ -85,14 +85,13 @@ impl Window {
 
     /// Why nothing of the recording is left: it ends before the part that is wanted, has a gap there, or no rows at all.
     pub(crate) fn nothing_of(&self, recording: &Path) -> CliError {
-        match self.span.start.filter(|_| self.first.is_some()) {
-            Some(start) if self.end().is_some() => CliError::option(
-                "--start",
-                start,
-                "has no row between itself and --end: the recording has a gap there",
-            ),
-            Some(start) => CliError::option("--start", start, "must be before the end of the recording"),
-            None => CliError::NoRows { path: recording.to_owned() },
+        let gap = "has no row between itself and --end: the recording has a gap there";
+        match (self.span.start.filter(|_| self.first.is_some()), self.end()) {
+            (Some(start), Some(_)) => CliError::option("--start", start, gap),
+            (Some(start), None) => {
+                CliError::option("--start", start, "must be before the end of the recording")
+            }
+            _ => CliError::NoRows { path: recording.to_owned() },
         }
     }
 
@@ -100,10 +99,11 @@ impl Window {
     #[inline]
     pub(crate) fn place(&mut self, time: f64) -> Place {
         if time.is_finite() {
-            let passed = time - *self.first.get_or_insert(time);
-            self.place = if self.span.start.is_some_and(|start| passed < start) {
+            let first = *self.first.get_or_insert(time);
+            let (passed, slack) = (time - first, rounding(time, first));
+            self.place = if self.span.start.is_some_and(|start| passed < start - slack(start)) {
                 Place::Before
-            } else if self.span.end.is_some_and(|end| passed > end) {
+            } else if self.span.end.is_some_and(|end| passed > end + slack(end)) {
                 Place::Behind
             } else {
                 Place::Within
@@ -115,9 +115,19 @@ impl Window {
     }
 }
 
+/// How far the difference of two times \[s\] may be from an edge \[s\] that its decimal digits are those of.
+///
+/// As binary numbers 1.3 − 1 is less than 0.3, and 5.4 − 5.1 more: a row at the edge would be left out or not by chance. With
+/// u = ε/2, a time of a file is wrong by u|t|, and by 2u|t| more where its unit is another than the second; the difference by
+/// u(|t| + |first|), and the edge by u·edge. So 2ε(|t| + |first| + edge) is beyond what rounding can do: 2 µs for times since
+/// 1970, 3e-12 s in the first hour.
+fn rounding(time: f64, first: f64) -> impl Fn(f64) -> f64 {
+    move |edge| 2.0 * f64::EPSILON * (time.abs() + first.abs() + edge)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Place, Span, Window};
+    use super::{Place, Span, Window, rounding};
 
     #[test]
     fn rows_lie_before_within_or_behind() {
@@ -134,5 +144,46 @@ mod tests {
         );
         assert_eq!(places(Some(2.0), None, &[f64::NAN, 1.0, 3.0]), [Before, Before, Within]);
         assert_eq!(places(None, Some(1.0), &[f64::NAN, 1.0, 3.0]), [Within, Within, Behind]);
+    }
+
+    /// Rows at every hundredth of a second, from a start that is no sum of powers of two, in seconds or in milliseconds:
+    /// the row whose digits are those of an edge is within, and that before it or behind it is not, however they are rounded.
+    #[test]
+    fn an_edge_is_met_by_the_row_whose_digits_it_has() {
+        let hundredths = |count: i64| format!("{}.{:02}", count / 100, count % 100);
+        let (mut less, mut more) = (0, 0);
+        for first in [0_i64, 10, 510, 123_457, 176_000_000_011] {
+            for in_milliseconds in [false, true] {
+                let of = |count: i64| -> f64 {
+                    if in_milliseconds {
+                        (10 * (first + count)).to_string().parse::<f64>().unwrap() * 1e-3
+                    } else {
+                        hundredths(first + count).parse().unwrap()
+                    }
+                };
+                for at in 1..300 {
+                    let edge: f64 = hundredths(at).parse().unwrap();
+                    let place = |start, end, time| {
+                        let mut window = Window::new(Span { start, end });
+                        window.place(of(0));
+                        window.place(time)
+                    };
+                    for (start, end) in [(Some(edge), None), (None, Some(edge)), (Some(edge), Some(edge))] {
+                        assert_eq!(place(start, end, of(at)), Place::Within, "{first} {edge}");
+                    }
+                    assert_eq!(place(Some(edge), None, of(at - 1)), Place::Before, "{first} {edge}");
+                    assert_eq!(place(None, Some(edge), of(at + 1)), Place::Behind, "{first} {edge}");
+                    less += u32::from(of(at) - of(0) < edge);
+                    more += u32::from(of(at) - of(0) > edge);
+                }
+            }
+        }
+        assert!(less > 500 && more > 500, "binary numbers alone would miss many rows: {less} and {more}");
+    }
+
+    #[test]
+    fn what_rounding_can_do_is_little() {
+        assert!(rounding(3600.0, 0.0)(10.0) < 4e-12 && rounding(1.76e9, 1.76e9)(10.0) < 2e-6);
+        assert!(rounding(1.3, 1.0)(0.3) > 2.0 * f64::EPSILON && rounding(f64::MAX, f64::MAX)(0.0) > 0.0);
     }
 }

@@ -156,7 +156,8 @@ pub(super) fn not_a_number<R: Read>(table: &TableReader<R>, column: usize, what:
 /// The number that a cell says, in a unit of this size; or what it is not. A number may be finite, and beyond
 /// [`LoadTable::GREATEST`] in SI.
 pub(super) fn number_in(text: &str, size: f64) -> Result<f64, &'static str> {
-    let number = text.parse::<f64>().map_err(|_| "a number")?;
+    // The same numbers, sooner; it knows fewer ways to write one.
+    let number = fast_float2::parse(text).or_else(|_| text.parse::<f64>()).map_err(|_| "a number")?;
     if !number.is_finite() {
         return Err("a finite number");
     }

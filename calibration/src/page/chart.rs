@@ -60,7 +60,7 @@ impl Chart {
         self.svg.label("name", (right, bottom + 31.0), Anchor::End, &self.x.title());
     }
 
-    fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
+    pub(crate) fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (LEFT + PLOT.0 * self.x.place(x), TOP + PLOT.1 * (1.0 - self.y.place(y)))
     }
 

@@ -1,7 +1,5 @@
 //! The plots of a report, as drawings of a page.
 
-use alloc::collections::BTreeMap;
-
 use nalgebra::DMatrix;
 
 use super::{LeftOut, Report};
@@ -11,6 +9,8 @@ use crate::page::{Axis, Chart, Figure};
 const LONGEST_NAME: usize = 24;
 /// Of the points in a square of so many units of the drawing one is drawn: a dot covers more.
 const CELL: f64 = 2.0;
+/// So many of them across and down are more than a drawing has.
+const SIDE: usize = 256;
 
 /// Classes of the style sheet: points of the fit, and those of loads that were left out of it.
 const FITTED: &str = "a";
@@ -91,18 +91,26 @@ impl Report {
     }
 }
 
-/// The points that are seen: of those that would lie over each other the one with the largest error.
+/// The points that are seen: of those that would lie over each other the one with the largest error. They come column by
+/// column.
 fn thinned(chart: &Chart, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut seen: BTreeMap<(i64, i64), (f64, f64)> = BTreeMap::new();
-    for (point, (across, down)) in points.iter().zip(chart.places(points)) {
-        #[allow(clippy::cast_possible_truncation, reason = "places of a drawing are some hundreds")]
-        let cell = ((across / CELL).floor() as i64, (down / CELL).floor() as i64);
-        let kept = seen.entry(cell).or_insert(*point);
-        if point.1.abs() > kept.1.abs() {
-            *kept = *point;
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "within the side, and a NaN is 0"
+    )]
+    let cell = |place: f64| (place / CELL).clamp(0.0, SIDE as f64 - 1.0) as usize;
+    // Number of the point that is kept in each, from 1 on.
+    let mut kept = vec![0; SIDE * SIDE];
+    for (number, point) in (1_usize..).zip(points) {
+        let (across, down) = chart.place(*point);
+        let Some(last) = kept.get_mut(cell(across) * SIDE + cell(down)) else { continue };
+        let error_of = |number: usize| points.get(number.wrapping_sub(1)).map(|(_, error)| error.abs());
+        if error_of(*last).is_none_or(|error| point.1.abs() > error) {
+            *last = number;
         }
     }
-    seen.into_values().collect()
+    kept.into_iter().filter_map(|number| points.get(number.wrapping_sub(1)).copied()).collect()
 }
 
 /// A name that leaves room for others.
@@ -115,8 +123,32 @@ fn shortened(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use alloc::collections::BTreeMap;
+
+    use rand::{RngExt, SeedableRng};
+
     use super::{CELL, thinned};
     use crate::page::{Axis, Chart};
+
+    /// Against a map from cells to what is kept there, in the order of the cells; of equal errors the first stays.
+    #[test]
+    fn in_each_cell_stays_the_first_of_the_largest_errors() {
+        let chart = Chart::new("", Axis::linear("", -1.0, 1.0), Axis::linear("", -1.0, 1.0));
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
+        for count in [0, 1, 2, 30, 5000, 60_000] {
+            let mut number = || f64::from(random.random_range(-500..=500)) / 500.0;
+            let points: Vec<(f64, f64)> = (0..count).map(|_| (number(), number())).collect();
+            let mut expected: BTreeMap<(i64, i64), (f64, f64)> = BTreeMap::new();
+            for (point, (across, down)) in points.iter().zip(chart.places(&points)) {
+                let cell = ((across / CELL).floor() as i64, (down / CELL).floor() as i64);
+                let kept = expected.entry(cell).or_insert(*point);
+                if point.1.abs() > kept.1.abs() {
+                    *kept = *point;
+                }
+            }
+            assert_eq!(thinned(&chart, &points), Vec::from_iter(expected.into_values()), "{count}");
+        }
+    }
 
     /// A million points are as many as can be seen, the largest errors among them.
     #[test]

@@ -58,6 +58,26 @@ fn folder() -> Folder {
     folder
 }
 
+/// A mesh of a million triangles is not built for each finger.
+#[test]
+fn a_scene_of_several_fingers_is_read_once() {
+    let folder = folder();
+    folder.write("grip.csv", &format!("{HEADER}\n{}\n", row(4.0, 2.0)));
+    let output = folder.run(&[
+        "analyze",
+        "grip.csv",
+        "--scene",
+        "hand.toml",
+        "--output",
+        "grasp.csv",
+        "--no-report",
+        "-v",
+    ]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(said.matches("reads scene").count(), 1, "{said}");
+    assert_eq!(Contacts::parse(&folder.read("grasp.csv")).words("right_status"), ["contact"]);
+}
+
 #[test]
 fn two_fingertips_are_one_grasp() {
     let folder = folder();

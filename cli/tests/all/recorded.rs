@@ -336,6 +336,8 @@ fn a_pseudo_terminal_that_is_pulled_is_an_error() {
     let samples = Contacts::parse(&folder.read("a.csv")).len();
     let expected = format!("s after the first sample, behind {samples} samples, which are recorded");
     assert!(samples > 0 && error.contains(&expected), "{error}");
+    // And not that it fell silent.
+    assert!(error.contains("the line was closed"), "{error}");
     assert!(!error.contains("Custom {") && !error.contains("os error 5"), "{error}");
 }
 

@@ -234,13 +234,12 @@ fn a_rate_that_cannot_be_gives_no_times() {
     }
 }
 
-/// Somebody who asks and says no more does not keep others from the page.
-#[test]
-fn half_open_connections_do_not_block_the_page() {
-    use fingertip_drivers::devices::{Serving, devices};
+/// A simulator, and where its page is.
+fn simulator_with_page() -> (fingertip_drivers::devices::NetworkSimulator, core::net::SocketAddr) {
+    use fingertip_drivers::devices::{Serving, Simulator, devices};
 
     let device = devices().iter().find(|device| device.name == "ati").unwrap();
-    let Some(fingertip_drivers::devices::Simulator::Network(start)) = device.simulator else { panic!() };
+    let Some(Simulator::Network(start)) = device.simulator else { panic!() };
     let simulator = start(Serving {
         listen: [127, 0, 0, 1].into(),
         port: Some(0),
@@ -251,13 +250,73 @@ fn half_open_connections_do_not_block_the_page() {
         load: Box::new(|_| [0.0; 6]),
     })
     .unwrap();
-    let (_, http) = simulator.address().rsplit_once("http=").unwrap();
-    let page = ("127.0.0.1", http.parse::<u16>().unwrap());
+    let http = simulator.address().rsplit_once("http=").unwrap().1.parse().unwrap();
+    (simulator, ([127, 0, 0, 1], http).into())
+}
+
+/// All that is answered to a request, until the connection is closed.
+fn answer_to(page: core::net::SocketAddr, pieces: &[&[u8]], pause: Duration) -> Vec<u8> {
+    use std::io::{Read as _, Write as _};
+
+    let mut stream = std::net::TcpStream::connect(page).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    for piece in pieces {
+        // It may have been closed meanwhile.
+        if stream.write_all(piece).is_err() {
+            break;
+        }
+        std::thread::sleep(pause);
+    }
+    let mut answer = Vec::new();
+    let _ = stream.read_to_end(&mut answer);
+    answer
+}
+
+/// Somebody who asks and says no more does not keep others from the page.
+#[test]
+fn half_open_connections_do_not_block_the_page() {
+    let (_simulator, page) = simulator_with_page();
     let idle: Vec<_> = (0..20).map(|_| std::net::TcpStream::connect(page).unwrap()).collect();
     // Twenty in a row would take ten seconds.
     let configuration = RdtClient::<f64>::configuration(page, Duration::from_secs(5)).unwrap();
     assert_eq!(configuration.counts_per_newton, 1e6);
     drop(idle);
+}
+
+/// More than are answered at a time are turned away at once; when these are given up, the page is there again.
+#[test]
+fn the_page_outlives_a_crowd_that_says_nothing() {
+    let (_simulator, page) = simulator_with_page();
+    let crowd: Vec<_> = (0..200).map(|_| std::net::TcpStream::connect(page).unwrap()).collect();
+    let begun = std::time::Instant::now();
+    loop {
+        match RdtClient::<f64>::configuration(page, Duration::from_secs(5)) {
+            Ok(configuration) => break assert_eq!(configuration.counts_per_newton, 1e6),
+            Err(error) => assert!(begun.elapsed() < Duration::from_secs(60), "{error}"),
+        }
+    }
+    drop(crowd);
+}
+
+/// What is no request for the page is refused by its reason, and what drips is given up, as a whole and not byte by byte.
+#[test]
+fn the_page_refuses_what_is_no_request_for_it() {
+    let (_simulator, page) = simulator_with_page();
+    let asked = |pieces: &[&[u8]], pause| answer_to(page, pieces, Duration::from_millis(pause));
+    let begins = |answer: &[u8], with: &str| {
+        assert!(answer.starts_with(with.as_bytes()), "{with}: {}", String::from_utf8_lossy(answer));
+    };
+    begins(&asked(&[b"GET /netftapi2.xml HTTP/1.0\r\n\r\n"], 0), "HTTP/1.0 200 OK\r\n");
+    begins(&asked(&[b"GET /netft", b"api2.xml HTTP/1.0\r", b"\n\r\n"], 20), "HTTP/1.0 200 OK\r\n");
+    begins(&asked(&[b"GET /other HTTP/1.0\r\n\r\n"], 0), "HTTP/1.0 404 ");
+    begins(&asked(&[b"DELETE /netftapi2.xml HTTP/1.0\r\n\r\n"], 0), "HTTP/1.0 405 ");
+    begins(&asked(&[&[b'x'; 30_000]], 0), "HTTP/1.0 431 ");
+    begins(&asked(&[&[0x16, 3, 1, 0, 5, b'\r', b'\n', b'\r', b'\n']], 0), "HTTP/1.0 405 ");
+    // Each byte comes soon after the last one, and the whole never.
+    let drips: Vec<&[u8]> = core::iter::repeat_n(&b"G"[..], 100).collect();
+    assert_eq!(String::from_utf8_lossy(&asked(&drips, 20)), "");
+    // Nothing of this keeps the next one from the page.
+    assert!(RdtClient::<f64>::configuration(page, Duration::from_secs(5)).is_ok());
 }
 
 /// All of a page must have come in time, however often a little of it comes.

@@ -4,6 +4,7 @@ use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 use core::fmt;
 use std::io::{Seek, Write};
+use std::sync::LazyLock;
 
 use ::mcap::records::MessageHeader;
 use ::mcap::{WriteOptions, Writer};
@@ -46,10 +47,14 @@ struct Channel {
     sequence: u32,
 }
 
+/// What the library writes by default. It looks in `/proc/cpuinfo` each time how many cores there are, which takes longer than
+/// a short file.
+static DEFAULT: LazyLock<WriteOptions> = LazyLock::new(WriteOptions::new);
+
 /// How files are written here, with messages of this profile.
 pub(super) fn options(compression: Compression, profile: &str) -> WriteOptions {
     let library = concat!("fingertip ", env!("CARGO_PKG_VERSION"));
-    let options = WriteOptions::new();
+    let options = DEFAULT.clone();
     // One thread: what packs must not take the time of what measures, nor memory by the number of cores.
     #[cfg(feature = "compression")]
     let options = options.compression_threads(0);

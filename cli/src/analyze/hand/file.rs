@@ -139,20 +139,24 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<HandScene, CliError> {
         if fingers.iter().any(|other| other.name == section.name) {
             return Err(named("another finger has this name; give each its own".to_owned()));
         }
-        fingers.push(finger(section, folder, &bad)?);
+        let finger = finger(section, folder, &fingers, &bad)?;
+        fingers.push(finger);
     }
     Ok(HandScene { name: file.name, sensors_in, safety, greatest_ratio, fingers })
 }
 
+/// `others` are the fingers before it: a scene that several have is read once.
 fn finger(
     section: FingerSection,
     folder: &Path,
+    others: &[FingerScene],
     bad: &impl Fn(String) -> CliError,
 ) -> Result<FingerScene, CliError> {
     let name = section.name;
     let named = |message: String| bad(format!("finger {name:?}: {message}"));
     let path = folder.join(&section.scene);
-    let scene = scene::load(&path)?;
+    let read = others.iter().find(|other| other.path == path).map(|other| other.scene.clone());
+    let scene = read.map_or_else(|| scene::load(&path), Ok)?;
     let friction = section.friction.or(scene.limit().map(Limit::coefficient)).ok_or_else(|| {
         named(format!("neither `friction` here nor [friction] of {} says how much it holds", path.display()))
     })?;

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 
 use super::configuration::Configuration;
 use super::scan::Scan;
-use super::wire::{Data, FastCommand, Register, Request, Status, parse_answer};
+use super::wire::{Data, FastCommand, Register, Request, Status, parse_answer, tells_reset};
 use crate::Sample;
 use crate::converters::{
     Conversion, ConverterError, ConverterFault, ConverterStatistics, Patience, parts, ready_in_time,
@@ -51,7 +51,7 @@ impl<const N: usize> State<N> {
         self.scan.as_ref().map(|_| ()).ok_or(ConverterFault::NotConfigured)
     }
 
-    /// Takes a reading of `ADCDATA`: whether it was new, and the sample if it completes one.
+    /// Takes a reading of `ADCDATA`: whether it was new, and the sample if it completes one. A fault is not counted yet.
     #[allow(clippy::type_complexity, reason = "two answers that belong together")]
     fn accept(
         &mut self,
@@ -59,13 +59,13 @@ impl<const N: usize> State<N> {
         bytes: [u8; 4],
     ) -> Result<(bool, Option<Conversion<N>>), ConverterFault> {
         if status.was_off() || status.registers_damaged() {
-            return Err(self.fault(ConverterFault::Reset));
+            return Err(ConverterFault::Reset);
         }
         if !status.is_new() {
             self.statistics.stale += 1;
             return Ok((false, None));
         }
-        let data = Data::parse(bytes).map_err(|fault| self.fault(fault))?;
+        let data = Data::parse(bytes)?;
         let scan = self.scan.as_mut().ok_or(ConverterFault::NotConfigured)?;
         let (counts, lost) = scan.push(data);
         self.statistics.incomplete += lost as u64;
@@ -160,13 +160,37 @@ macro_rules! face {
             /// # Errors
             /// Those of the bus and of the checksum.
             pub $($async)? fn read_register<const L: usize>(&mut self, address: u8) -> Result<(Status, [u8; L]), Failure<S, P>> {
+                let answer = self.ask(address) $($await)* .map_err(ConverterError::Bus)?;
+                Ok(answer.map_err(|fault| self.state.fault(fault))?)
+            }
+
+            /// The same, with a fault that is not counted yet.
+            #[allow(clippy::type_complexity, reason = "what the bus gives, and what the device")]
+            $($async)? fn ask<const L: usize>(
+                &mut self,
+                address: u8,
+            ) -> Result<Result<(Status, [u8; L]), ConverterFault>, S::Error> {
                 let mut buffer = [0; LONGEST];
                 let bytes = buffer.get_mut(..L + 3).unwrap_or_default();
                 if let Some(first) = bytes.first_mut() {
                     *first = Request::Read { address }.emit(self.state.device);
                 }
-                self.bus.transfer_in_place(bytes) $($await)* .map_err(ConverterError::Bus)?;
-                Ok(parse_answer(bytes, self.state.device).map_err(|fault| self.state.fault(fault))?)
+                self.bus.transfer_in_place(bytes) $($await)* ?;
+                Ok(parse_answer(bytes, self.state.device))
+            }
+
+            /// Counts what went wrong with a reading, or the reset that is behind it: a device that was reset converts
+            /// nothing, and its answers have no CRC, so that it seems late or damaged. It is asked.
+            $($async)? fn failed(&mut self, fault: ConverterFault) -> ConverterFault {
+                let mut cause = fault;
+                if matches!(fault, ConverterFault::Timeout | ConverterFault::Checksum { .. }) {
+                    let mut bytes = [Request::Read { address: Register::CONFIG3 }.emit(self.state.device), 0, 0, 0];
+                    let answered = self.bus.transfer_in_place(&mut bytes) $($await)* .is_ok();
+                    if answered && tells_reset(bytes, self.state.device) {
+                        cause = ConverterFault::Reset;
+                    }
+                }
+                self.state.fault(cause)
             }
 
             $($async)? fn write<const L: usize>(&mut self, address: u8, values: [u8; L]) -> Result<(), Failure<S, P>> {
@@ -183,6 +207,14 @@ macro_rules! face {
             /// [`ConverterFault::Reset`] the device must be configured.
             pub $($async)? fn read(&mut self) -> Result<Conversion<N>, Failure<S, P>> {
                 self.state.ready_to_read()?;
+                match self.cycle() $($await)* {
+                    Err(ConverterError::Fault(fault)) => Err(self.failed(fault) $($await)* .into()),
+                    conversion => conversion,
+                }
+            }
+
+            /// The same, with a fault that is not counted yet.
+            $($async)? fn cycle(&mut self) -> Result<Conversion<N>, Failure<S, P>> {
                 let patience = self.state.patience;
                 // Each input may take as long as is waited for one; two cycles go by while it learns.
                 let mut looks = patience.looks();
@@ -190,9 +222,10 @@ macro_rules! face {
                 loop {
                     let ready = $wait(&mut self.ready, &mut self.delay, patience) $($await)* ;
                     if !ready.map_err(ConverterError::Pin)? {
-                        return Err(self.state.fault(ConverterFault::Timeout).into());
+                        return Err(ConverterFault::Timeout.into());
                     }
-                    let (status, bytes) = self.read_register(Register::ADCDATA) $($await)* ?;
+                    let answer = self.ask(Register::ADCDATA) $($await)* .map_err(ConverterError::Bus)?;
+                    let (status, bytes) = answer?;
                     let (new, conversion) = self.state.accept(status, bytes)?;
                     if let Some(conversion) = conversion {
                         return Ok(conversion);
@@ -205,7 +238,7 @@ macro_rules! face {
                         self.delay.delay_us(patience.pause.max(1)) $($await)*;
                     }
                     if looks == 0 || conversions == 0 {
-                        return Err(self.state.fault(ConverterFault::Timeout).into());
+                        return Err(ConverterFault::Timeout.into());
                     }
                 }
             }
@@ -271,8 +304,9 @@ where
         if !self.ready.is_low().map_err(ConverterError::Pin)? {
             return Err(nb::Error::WouldBlock);
         }
-        let (status, bytes) = self.read_register(Register::ADCDATA)?;
-        let (_, conversion) = self.state.accept(status, bytes).map_err(ConverterError::from)?;
+        let answer = self.ask(Register::ADCDATA).map_err(ConverterError::Bus)?;
+        let accepted = answer.and_then(|(status, bytes)| self.state.accept(status, bytes));
+        let (_, conversion) = accepted.map_err(|fault| ConverterError::from(self.failed(fault)))?;
         let value = conversion.ok_or(nb::Error::WouldBlock)?.signals().map_err(ConverterError::from)?;
         Ok(Some(Sample { time: None, value }))
     }

@@ -49,7 +49,9 @@
 //!
 //! # What is noticed
 //! Damaged answers (CRC), data that was read before (status), a supply that was off or registers that
-//! were damaged while locked (status), a conversion that was missed: its cycle is not given. Not noticed: `N`
+//! were damaged while locked (status), a conversion that was missed: its cycle is not given. A device that was reset converts
+//! nothing and sends no CRC; so one that is late, or whose answer is damaged, is asked for `CONFIG3`, which tells it. Not
+//! noticed: a reset by who polls and has wired the pin, for whom there is nothing new from then on; `N`
 //! conversions in a row that are missed in the midst of a cycle, since the chip does not count them; call
 //! `restart` after a pause of your own. Commands are not protected on this chip; registers are read back after
 //! they were written.

@@ -15,7 +15,7 @@ use crate::converters::SimulatedDevice;
 /// simulated: settling of the filter, offset calibration, delays in the list, formats other than that with
 /// channel numbers.
 ///
-/// The supply dips. Then the chip converts nothing until it is configured:
+/// The supply dips. Then the chip converts nothing until it is configured, and the driver asks why:
 ///
 /// ```
 /// use fingertip_drivers::converters::mcp3564::{Channel, Configuration, Mcp3564, SimulatedMcp3564};
@@ -27,7 +27,7 @@ use crate::converters::SimulatedDevice;
 /// let mut converter = Mcp3564::new(bench.spi(), bench.ready(), bench.delay(), Patience::default());
 /// converter.configure(&Configuration::new([Channel::PairA]))?;
 /// bench.with(|chip| chip.power_cycle());
-/// assert_eq!(converter.read(), Err(ConverterError::Fault(ConverterFault::Timeout)));
+/// assert_eq!(converter.read(), Err(ConverterError::Fault(ConverterFault::Reset)));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 pub struct SimulatedMcp3564 {

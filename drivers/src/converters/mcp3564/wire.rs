@@ -194,6 +194,17 @@ pub(super) fn parse_answer<const L: usize>(
     Ok((status, *data))
 }
 
+/// Whether the device was reset, by its answer for `CONFIG3` and two bytes more. A device that was configured puts its CRC
+/// there, and its registers are not what they were after a reset; one that was reset sends none, and the register is 0. A
+/// line that is stuck has not the device's address in its status.
+pub(super) fn tells_reset(bytes: [u8; 4], device: u8) -> bool {
+    let [status, register, ..] = bytes;
+    match parse_answer::<1>(&bytes, device) {
+        Ok((status, _)) => status.was_off() || status.registers_damaged(),
+        Err(_) => Status(status).is_of(device) && register == 0,
+    }
+}
+
 /// The CRC that follows status and data.
 #[cfg(any(test, feature = "simulators"))]
 pub(super) fn checksum(status_and_data: &[u8]) -> [u8; 2] {
@@ -272,6 +283,27 @@ mod tests {
             (0x41, 0x46)
         );
         assert_eq!(Status::address_bits(1), 0b0001_0000);
+    }
+
+    #[test]
+    fn a_reset_is_told_from_damage_and_from_a_stuck_line() {
+        let whole = |status: u8, register: u8| {
+            let [high, low] = checksum(&[status, register]);
+            [status, register, high, low]
+        };
+        // Configured; its supply was off; its registers were damaged while they were locked.
+        assert!(!tells_reset(whole(0x17, 0xF4), 1));
+        assert!(tells_reset(whole(0x16, 0xF4), 1) && tells_reset(whole(0x15, 0xF4), 1));
+        // After a reset there is no CRC: the register comes again, or nothing.
+        for status in [0x16, 0x17] {
+            assert!(tells_reset([status, 0, 0, 0], 1) && tells_reset([status, 0, 0xFF, 0xFF], 1));
+        }
+        // A damaged answer of a device that is well, another device, and stuck lines.
+        assert!(!tells_reset([0x16, 0xF4, 1, 2], 1));
+        assert!(!tells_reset([0x26, 0, 0, 0], 1));
+        for device in 0..4 {
+            assert!(!tells_reset([0; 4], device) && !tells_reset([0xFF; 4], device));
+        }
     }
 
     proptest! {

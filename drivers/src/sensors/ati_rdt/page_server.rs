@@ -3,7 +3,7 @@
 use core::sync::atomic::Ordering;
 use core::time::Duration;
 use std::io::{self, Read, Write};
-use std::net::{TcpListener, TcpStream, ToSocketAddrs};
+use std::net::{Shutdown, TcpListener, TcpStream, ToSocketAddrs};
 use std::thread;
 use std::time::Instant;
 
@@ -16,6 +16,8 @@ const NAP: Duration = Duration::from_millis(5);
 const MOST: usize = 64;
 /// How long one may take to ask.
 const PATIENCE: Duration = Duration::from_millis(500);
+/// The longest request \[bytes\].
+const LONGEST: usize = 8192;
 
 /// Serves the page of a configuration at an address, until it is dropped.
 pub(super) fn serve_page(
@@ -48,21 +50,84 @@ fn answer(mut stream: TcpStream, configuration: &Configuration) -> io::Result<()
     let end = Instant::now() + PATIENCE;
     stream.set_write_timeout(Some(PATIENCE))?;
     let mut request = Vec::new();
-    let mut bytes = [0; 512];
-    while !request.windows(4).any(|end| end == b"\r\n\r\n") && request.len() < 8192 {
-        let left = end.saturating_duration_since(Instant::now());
-        if left.is_zero() {
-            return Err(io::ErrorKind::TimedOut.into());
-        }
-        stream.set_read_timeout(Some(left))?;
-        match stream.read(&mut bytes)? {
-            0 => break,
-            length => request.extend_from_slice(bytes.get(..length).unwrap_or_default()),
+    while !is_whole(&request) && request.len() < LONGEST {
+        if read_until(&mut stream, end, &mut request)? == 0 {
+            break;
         }
     }
-    if request.starts_with(b"GET /netftapi2.xml") {
-        stream.write_all(configuration.page().as_bytes())
+    stream.write_all(reply(&request, configuration).as_bytes())?;
+    // What is closed with bytes unread is reset, and takes the answer with it.
+    stream.shutdown(Shutdown::Write)?;
+    let mut rest = Vec::new();
+    while rest.len() < 8 * LONGEST && read_until(&mut stream, end, &mut rest)? > 0 {}
+    Ok(())
+}
+
+/// Reads what comes next, if it comes in time.
+fn read_until(stream: &mut TcpStream, end: Instant, to: &mut Vec<u8>) -> io::Result<usize> {
+    let left = end.saturating_duration_since(Instant::now());
+    if left.is_zero() {
+        return Err(io::ErrorKind::TimedOut.into());
+    }
+    stream.set_read_timeout(Some(left))?;
+    let mut bytes = [0; 512];
+    let length = stream.read(&mut bytes)?;
+    to.extend_from_slice(bytes.get(..length).unwrap_or_default());
+    Ok(length)
+}
+
+fn is_whole(request: &[u8]) -> bool {
+    request.windows(4).any(|end| end == b"\r\n\r\n")
+}
+
+/// What is answered to a request, or to what there is of one.
+fn reply(request: &[u8], configuration: &Configuration) -> String {
+    let line = request.split(|byte| *byte == b'\r').next().unwrap_or_default();
+    let mut words = line.split(|byte| *byte == b' ').filter(|word| !word.is_empty());
+    let (method, path) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+    let refused =
+        |status: &str| format!("HTTP/1.0 {status}\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
+    if !is_whole(request) {
+        refused(if request.len() < LONGEST {
+            "400 Bad Request"
+        } else {
+            "431 Request Header Fields Too Large"
+        })
+    } else if method != b"GET" {
+        refused("405 Method Not Allowed\r\nAllow: GET")
+    } else if path.split(|byte| *byte == b'?').next() != Some(b"/netftapi2.xml") {
+        refused("404 Not Found")
     } else {
-        stream.write_all(b"HTTP/1.0 404 Not Found\r\nContent-Length: 0\r\nConnection: close\r\n\r\n")
+        configuration.page()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_page_is_given_and_what_else_is_asked_is_refused_by_its_reason() {
+        let page = "<cfgcpf>7</cfgcpf><cfgcpt>9</cfgcpt><scfgfu>N</scfgfu><scfgtu>Nm</scfgtu>";
+        let configuration = Configuration::parse(page).unwrap();
+        let long = format!("GET /netftapi2.xml HTTP/1.0\r\nCookie: {}", "x".repeat(LONGEST));
+        for (request, status) in [
+            ("GET /netftapi2.xml HTTP/1.0\r\n\r\n", "200 OK"),
+            ("GET /netftapi2.xml?index=0 HTTP/1.1\r\nHost: sensor\r\n\r\n", "200 OK"),
+            ("GET /netftapi2.xml\r\n\r\n", "200 OK"),
+            ("GET /netftapi2.xml.bak HTTP/1.0\r\n\r\n", "404 Not Found"),
+            ("GET / HTTP/1.0\r\n\r\n", "404 Not Found"),
+            ("GET\r\n\r\n", "404 Not Found"),
+            ("POST /netftapi2.xml HTTP/1.0\r\n\r\n", "405 Method Not Allowed\r\nAllow: GET"),
+            ("GETTER /netftapi2.xml HTTP/1.0\r\n\r\n", "405 Method Not Allowed"),
+            ("\r\n\r\n", "405 Method Not Allowed"),
+            ("", "400 Bad Request"),
+            ("GET /netftapi2.xml HTTP/1.0\r\n", "400 Bad Request"),
+            (&long, "431 Request Header Fields Too Large"),
+        ] {
+            let told = reply(request.as_bytes(), &configuration);
+            assert!(told.starts_with(&format!("HTTP/1.0 {status}\r\n")), "{request:.60}: {told}");
+            assert_eq!(told.contains("<cfgcpf>7<"), status == "200 OK", "{request:.60}: {told}");
+        }
     }
 }

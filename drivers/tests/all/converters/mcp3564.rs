@@ -173,8 +173,11 @@ fn stuck_lines_a_lost_supply_and_damaged_registers_are_noticed() {
     chip.configure(&configuration()).unwrap();
     cycle(chip.read().unwrap().counts);
     bench.with(SimulatedMcp3564::power_cycle);
-    // It converts nothing, and says so when it is asked.
-    assert_eq!(chip.read().unwrap_err().kind(), SourceErrorKind::Timeout);
+    // It converts nothing, and says why when it is asked.
+    let (timeouts, resets) = (chip.statistics().timeouts, chip.statistics().resets);
+    assert_eq!(chip.read(), Err(ConverterFault::Reset.into()));
+    assert_eq!(chip.read(), Err(ConverterFault::NotConfigured.into()));
+    assert_eq!((chip.statistics().timeouts, chip.statistics().resets), (timeouts, resets + 1));
     assert!(chip.configure(&Configuration { device: 2, ..configuration() }).is_err());
     chip.configure(&configuration()).unwrap();
     cycle(chip.read().unwrap().counts);
@@ -182,6 +185,30 @@ fn stuck_lines_a_lost_supply_and_damaged_registers_are_noticed() {
     chip.read().unwrap_err();
     chip.command(FastCommand::Start).unwrap();
     cycle(chip.read().unwrap().counts);
+}
+
+/// Without the pin it is no silence that tells of the reset, but answers without a CRC.
+#[test]
+fn a_lost_supply_is_noticed_by_every_face() {
+    let one = bench(false, WireFaults::default());
+    let mut chip: Mcp3564<_, _, _, 5> = Mcp3564::new(one.spi(), Unwired, one.delay(), PATIENCE);
+    let two = bench(false, WireFaults::default());
+    let mut awaited: AsyncMcp3564<_, _, _, 5> =
+        AsyncMcp3564::new(two.spi(), two.ready(), two.delay(), PATIENCE);
+    for _ in 0..2 {
+        chip.configure(&configuration()).unwrap();
+        cycle(chip.read().unwrap().counts);
+        one.with(SimulatedMcp3564::power_cycle);
+        assert_eq!(chip.read(), Err(ConverterFault::Reset.into()));
+        chip.configure(&configuration()).unwrap();
+        one.with(SimulatedMcp3564::power_cycle);
+        let polled = NbSource::<f64, SVector<f64, 5>>::poll_sample(&mut chip);
+        assert_eq!(polled, Err(nb::Error::Other(ConverterFault::Reset.into())));
+        block_on(awaited.configure(&configuration())).unwrap();
+        two.with(SimulatedMcp3564::power_cycle);
+        assert_eq!(block_on(awaited.read()), Err(ConverterFault::Reset.into()));
+    }
+    assert_eq!((chip.statistics().resets, chip.statistics().corrupt), (4, 0));
 }
 
 #[test]
@@ -197,28 +224,36 @@ fn a_count_beyond_the_range_is_an_error() {
     assert_eq!(chip.read().unwrap().counts, [-4_194_304, 9_227_469]);
 }
 
-#[test]
-fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
-    // CRC-16 with 0x8005 and seed 0, bit by bit.
-    let crc = |bytes: &[u8]| {
-        let mut crc = 0_u16;
-        for byte in bytes {
-            crc ^= u16::from(*byte) << 8;
-            for _ in 0..8 {
-                crc = if crc & 0x8000 == 0 { crc << 1 } else { crc << 1 ^ 0x8005 };
-            }
+/// CRC-16 with 0x8005 and seed 0, bit by bit.
+fn crc(bytes: &[u8]) -> [u8; 2] {
+    let mut crc = 0_u16;
+    for byte in bytes {
+        crc ^= u16::from(*byte) << 8;
+        for _ in 0..8 {
+            crc = if crc & 0x8000 == 0 { crc << 1 } else { crc << 1 ^ 0x8005 };
         }
-        crc.to_be_bytes()
-    };
-    let read = |address: u8, status: u8, data: &[u8]| {
-        let mut answer = vec![status];
-        answer.extend(data);
-        let checksum = crc(&answer);
-        answer.extend(checksum);
-        let mut request = vec![0; answer.len()];
-        request[0] = 0x41 | address << 2;
-        [Spi::transaction_start(), Spi::transfer_in_place(request, answer), Spi::transaction_end()]
-    };
+    }
+    crc.to_be_bytes()
+}
+
+/// A register is asked for, and this is the whole answer.
+fn answered(address: u8, answer: &[u8]) -> [Spi<u8>; 3] {
+    let mut request = vec![0; answer.len()];
+    request[0] = 0x41 | address << 2;
+    [Spi::transaction_start(), Spi::transfer_in_place(request, answer.to_vec()), Spi::transaction_end()]
+}
+
+/// The answer has its CRC.
+fn read(address: u8, status: u8, data: &[u8]) -> [Spi<u8>; 3] {
+    let mut answer = vec![status];
+    answer.extend(data);
+    let checksum = crc(&answer);
+    answer.extend(checksum);
+    answered(address, &answer)
+}
+
+/// What is on the bus while a chip is configured.
+fn configured(configuration: &Configuration<1>) -> Vec<Spi<u8>> {
     let write = |bytes: &[u8]| {
         let (command, values) = bytes.split_at(1);
         let mut all = vec![Spi::transaction_start(), Spi::write_vec(command.to_vec())];
@@ -228,7 +263,6 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
         all.push(Spi::transaction_end());
         all
     };
-    let configuration = Configuration::new([Channel::PairA]);
     let registers = configuration.registers();
     let mut bus = write(&[0x76, 0xA5]);
     bus.extend(write(&[0x78]));
@@ -241,6 +275,13 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
         at += length;
     }
     bus.extend(write(&[0x68]));
+    bus
+}
+
+#[test]
+fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
+    let configuration = Configuration::new([Channel::PairA]);
+    let mut bus = configured(&configuration);
     for counts in [1, 2] {
         bus.extend(read(0, 0x13, &Data { channel: 8, counts }.emit()));
     }
@@ -255,6 +296,31 @@ fn the_bytes_on_the_bus_are_those_of_the_data_sheet() {
     assert_eq!(chip.read(), Err(ConverterFault::Reset.into()));
     let (mut spi, ..) = chip.release();
     spi.done();
+}
+
+/// A damaged answer is followed by one question: what `CONFIG3` holds.
+#[test]
+fn the_question_whether_it_was_reset_is_one_register() {
+    let configuration = Configuration::new([Channel::PairA]);
+    let whole = [0x17, 0xF4, crc(&[0x17, 0xF4])[0], crc(&[0x17, 0xF4])[1]];
+    for (answer, is_reset) in [([0x16, 0, 0, 0], true), (whole, false), ([0x16, 0xF4, 0, 0], false)] {
+        let mut bus = configured(&configuration);
+        bus.extend(answered(0, &[0x13, 0x80, 0, 0, 1, 0xAB, 0xCD]));
+        bus.extend(answered(4, &answer));
+        let spi = SpiMock::new(&bus);
+        let mut chip: Mcp3564<_, _, _, 1> = Mcp3564::new(spi.clone(), Unwired, NoopDelay::new(), PATIENCE);
+        chip.configure(&configuration).unwrap();
+        let fault = chip.read().unwrap_err();
+        if is_reset {
+            assert_eq!(fault, ConverterFault::Reset.into());
+        } else {
+            let damaged =
+                matches!(fault, ConverterError::Fault(ConverterFault::Checksum { found: 0xABCD, .. }));
+            assert!(damaged, "{fault:?}");
+        }
+        let (mut spi, ..) = chip.release();
+        spi.done();
+    }
 }
 
 /// The data sheet's list of gains, and what of the reference is full scale at each.
