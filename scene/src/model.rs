@@ -37,6 +37,9 @@ pub(crate) struct ContactSection {
     /// By which a spin torque counts as a tangential force.
     #[serde(skip_serializing_if = "Option::is_none")]
     torque_arm_m: Option<f64>,
+    /// So much torque along a force may be noise.
+    #[serde(rename = "spin_noise_Nm", skip_serializing_if = "Option::is_none")]
+    spin_noise: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     greatest_pitch_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -84,6 +87,9 @@ impl ContactSection {
         let mut model = SoftFinger::new(T::literal(self.least_force))?;
         if let Some(ratio) = self.greatest_friction_ratio {
             model = model.with_greatest_friction(T::literal(ratio))?;
+        }
+        if let Some(noise) = self.spin_noise {
+            model = model.with_torque_noise(T::literal(noise))?;
         }
         match self.torque_arm_m {
             Some(arm) => model.with_torque_arm(T::literal(arm)),
@@ -153,6 +159,11 @@ impl ContactSection {
                 self.torque_arm_m.is_some()
                     && (self.model == ModelName::Point || self.greatest_friction_ratio.is_none()),
                 "a soft finger with `greatest_friction_ratio`",
+            ),
+            (
+                "spin_noise_Nm",
+                self.spin_noise.is_some() && self.model == ModelName::Point,
+                "the models \"soft_finger\" and \"auto\"",
             ),
             ("greatest_pitch_m", self.greatest_pitch_m.is_some() && !auto, "the model \"auto\""),
             (

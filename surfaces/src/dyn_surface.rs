@@ -183,6 +183,10 @@ impl<T: Real> Shortcuts<T> for DynSurface<T> {
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         each_surface!(self, shape => shape.shortcuts().surface_residual(point))
     }
+
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        each_surface!(self, shape => shape.shortcuts().entry_in_double(line, near))
+    }
 }
 
 impl<T: Real> SmoothSurface<T> for DynSurface<T> {

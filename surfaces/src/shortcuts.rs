@@ -1,8 +1,9 @@
 //! What a shape knows sooner, or to more digits, than its crossings tell.
 
-use fingertip_wrench::{Real, RigidTransform};
-use nalgebra::Vector3;
+use fingertip_wrench::{Line, Real, RigidTransform};
+use nalgebra::{Matrix3, Vector3};
 
+use crate::numeric::vectors::wide;
 use crate::{Entry, ForceLine};
 
 /// What a shape knows sooner, or to more digits, than its crossings tell. Point contact asks here first.
@@ -79,6 +80,17 @@ pub trait Shortcuts<T: Real>: Sized {
         T::zero()
     }
 
+    /// Where a line enters near a point, in double precision: the point and the outward unit normal.
+    ///
+    /// Point contact asks for it in a narrower type, where a force meets the surface at a flat angle, and moves the
+    /// crossing by rounding alone if there is no answer. `None`, as the default answers, suits all shapes whose normal
+    /// the digits of a point tell; it is for those that are bent sharply one way.
+    #[inline(always)]
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        let _ = (line, near);
+        None
+    }
+
     /// The shortcuts of the part of this surface to which `is_part` says that an entry belongs. They no longer
     /// promise that it may touch everywhere.
     #[inline(always)]
@@ -122,6 +134,11 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for &S {
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         (**self).surface_residual(point)
     }
+
+    #[inline(always)]
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        (**self).entry_in_double(line, near)
+    }
 }
 
 struct Within<S, F> {
@@ -140,6 +157,11 @@ impl<T: Real, S: Shortcuts<T>, F: Fn(&Entry<T>) -> bool> Shortcuts<T> for Within
     #[inline(always)]
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         self.whole.surface_residual(point)
+    }
+
+    #[inline(always)]
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        self.whole.entry_in_double(line, near)
     }
 }
 
@@ -163,6 +185,18 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for Moved<'_, T, S> {
 
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         self.inner.surface_residual(&self.pose.rotation().tr_mul(&(point - self.pose.origin())))
+    }
+
+    /// A rotation that is stored in a narrower type is one to its digits only: it is undone to those of this.
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        let (rotation, origin) = (self.pose.rotation().map(Real::to_f64), wide(&self.pose.origin()));
+        // A step of Newton's method for the inverse, from one that is off by ε.
+        let back = rotation.transpose();
+        let back = back * (Matrix3::identity() * 2.0 - rotation * back);
+        let inside = |point: &Vector3<f64>| back * (point - origin);
+        let line = Line { point: inside(&line.point), direction: back * line.direction };
+        let [point, normal] = self.inner.entry_in_double(&line, &inside(near))?;
+        Some([rotation * point + origin, back.tr_mul(&normal)])
     }
 }
 

@@ -373,6 +373,10 @@ typedef struct ft_touch {
     uint32_t has_margin;
     // How many other points of the surface would explain the wrench as well.
     uint32_t alternatives;
+    // 1 if contacts were searched for, and the surface says too little of itself to know that none was missed; 0 else.
+    uint32_t searched;
+    // Zero.
+    uint32_t reserved;
     // The load that the environment applies to the fingertip, without zero and payload.
     struct ft_wrench wrench;
     // Where the environment touches, in m.

@@ -128,6 +128,8 @@ struct Contact {
     double spin_torque;
     double gap;
     std::uint32_t alternatives;
+    /// Contacts were searched for, and more may be missing.
+    bool searched;
 };
 
 /// What a sample says.
@@ -138,7 +140,7 @@ struct Touch : ft_touch {
     std::optional<Contact> contact() const noexcept {
         if (resolution != FT_CONTACT) return std::nullopt;
         return Contact{vector(point), vector(normal), normal_force, vector(tangential_force),
-                       spin_torque,   gap,            alternatives};
+                       spin_torque,   gap,            alternatives,              searched != 0};
     }
     /// How far it is from slipping, with friction and contact.
     std::optional<ft_margin> slip_margin() const noexcept {

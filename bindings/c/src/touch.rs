@@ -78,6 +78,10 @@ pub struct ft_touch {
     pub has_margin: u32,
     /// How many other points of the surface would explain the wrench as well.
     pub alternatives: u32,
+    /// 1 if contacts were searched for, and the surface says too little of itself to know that none was missed; 0 else.
+    pub searched: u32,
+    /// Zero.
+    pub reserved: u32,
     /// The load that the environment applies to the fingertip, without zero and payload.
     pub wrench: ft_wrench,
     /// Where the environment touches, in m.
@@ -114,6 +118,8 @@ impl ft_touch {
         };
         put!(place.resolution = ft_resolution::FT_CONTACT);
         put!(place.alternatives = u32::from(contact.alternatives));
+        put!(place.searched = u32::from(contact.searched));
+        put!(place.reserved = 0);
         put!(place.point = fresh_vector(&contact.point));
         put!(place.normal = fresh_vector(&contact.normal));
         put!(place.gap = fresh(&contact.gap));
@@ -135,6 +141,8 @@ impl ft_touch {
         put!(place.resolution = resolution);
         put!(place.has_margin = 0);
         put!(place.alternatives = 0);
+        put!(place.searched = 0);
+        put!(place.reserved = 0);
         put!(place.point = [0.0; 3]);
         put!(place.normal = [0.0; 3]);
         put!(place.normal_force = 0.0);

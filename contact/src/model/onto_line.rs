@@ -1,10 +1,42 @@
 //! What rounding did to a contact that the force meets at a flat angle, undone.
 
 use fingertip_surfaces::numeric::twofold::Twofold;
-use fingertip_surfaces::numeric::vectors::largest;
-use fingertip_surfaces::{ActiveSurface, Shortcuts};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_surfaces::numeric::vectors::{largest, wide};
+use fingertip_surfaces::{ActiveSurface, Crossing, Shortcuts};
+use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
+
+use super::flat;
+
+/// Where the contact is.
+pub(super) struct Place<T: Real> {
+    pub(super) point: Vector3<T>,
+    pub(super) normal: Vector3<T>,
+    pub(super) gap: T,
+    pub(super) alternatives: u8,
+}
+
+impl<T: Real> Place<T> {
+    pub(super) fn at(point: Vector3<T>, normal: Vector3<T>) -> Self {
+        Self { point, normal, gap: T::zero(), alternatives: 0 }
+    }
+}
+
+/// The place of a crossing; where the force meets the surface at a flat angle, without the rounding
+/// errors that grow there.
+pub(super) fn entered<T: Real, S: ActiveSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    crossing: &Crossing<T>,
+    incidence: T,
+) -> Place<T> {
+    let Crossing { point, normal, .. } = *crossing;
+    if incidence < flat() {
+        let (point, normal) = onto_line(wrench, surface, (point, normal), incidence);
+        return Place::at(point, normal);
+    }
+    Place::at(point, normal)
+}
 
 /// More steps than that do not help: from where rounding leaves a crossing next to tangency, seven do.
 const STEPS: usize = 8;
@@ -22,12 +54,15 @@ const STEPS: usize = 8;
 /// shorter than the one before.
 #[cold]
 #[inline(never)]
-pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
+fn onto_line<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     (point, normal): (Vector3<T>, Vector3<T>),
     incidence: T,
 ) -> (Vector3<T>, Vector3<T>) {
+    if let Some(found) = in_double(wrench, surface, &point) {
+        return found;
+    }
     // Below √ε/2 the place is known to half of the digits.
     if incidence * incidence < T::literal(0.25) * T::EPSILON {
         return (point, normal);
@@ -58,6 +93,25 @@ pub(super) fn onto_line<T: Real, S: ActiveSurface<T>>(
         outward = turned;
     }
     (place, outward)
+}
+
+/// Where the line of action enters near a point, in double precision for a type that is narrower, if the surface knows:
+/// that the steps above end where they should, digits of a normal must follow from those of its point.
+#[inline(always)]
+pub(super) fn in_double<T: Real, S: ActiveSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    near: &Vector3<T>,
+) -> Option<(Vector3<T>, Vector3<T>)> {
+    if T::CARRIES_MORE || T::EPSILON.to_f64() <= f64::EPSILON {
+        return None;
+    }
+    // In range: the squares of all numbers of a narrower type are.
+    let (f, m) = (wide(&wrench.force()), wide(&wrench.torque()));
+    let squared = f.norm_squared();
+    let line = Line { point: f.cross(&m) / squared, direction: f / squared.root() };
+    let [point, normal] = surface.shortcuts().entry_in_double(&line, &wide(near))?;
+    (normal.dot(&f) < 0.0).then(|| (point.map(T::literal), normal.map(T::literal)))
 }
 
 /// Kept out of line, as it is asked often for few samples.

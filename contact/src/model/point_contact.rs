@@ -1,6 +1,6 @@
 //! Contact in a point, without local torque.
 
-use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger};
+use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, largest};
 use fingertip_surfaces::{
     ActiveSurface, BadShape, Crossing, ForceLine, ForceParts, Shortcuts, is_closed_convex,
 };
@@ -10,7 +10,7 @@ use fingertip_wrench::{
 use nalgebra::Vector3;
 
 use super::long_way::long_way;
-use super::onto_line::onto_line;
+use super::onto_line::{Place, entered, in_double};
 use super::seen::{Seen, too_flat};
 use super::{Contact, ContactModel, NoContact, Resolution};
 
@@ -178,36 +178,6 @@ fn contact_at<T: Real>(wrench: &Wrench<T>, point: Vector3<T>, normal: Vector3<T>
     }
 }
 
-/// Where the contact is.
-struct Place<T: Real> {
-    point: Vector3<T>,
-    normal: Vector3<T>,
-    gap: T,
-    alternatives: u8,
-}
-
-impl<T: Real> Place<T> {
-    fn at(point: Vector3<T>, normal: Vector3<T>) -> Self {
-        Self { point, normal, gap: T::zero(), alternatives: 0 }
-    }
-}
-
-/// The place of a crossing; where the force meets the surface at a flat angle, without the rounding
-/// errors that grow there.
-fn entered<T: Real, S: ActiveSurface<T>>(
-    wrench: &Wrench<T>,
-    surface: &S,
-    crossing: &Crossing<T>,
-    incidence: T,
-) -> Place<T> {
-    let Crossing { point, normal, .. } = *crossing;
-    if incidence < flat() {
-        let (point, normal) = onto_line(wrench, surface, (point, normal), incidence);
-        return Place::at(point, normal);
-    }
-    Place::at(point, normal)
-}
-
 fn check<T: Real>(parameter: &'static str, value: T) -> Result<T, BadShape> {
     BadShape::check(
         "point contact",
@@ -291,7 +261,7 @@ impl<T: Real> PointContact<T> {
             self.best_entry(wrench, surface, &axis.line, last)
         };
         // One place writes the contact, whichever way it was found: that keeps the code small.
-        match found.unwrap_or_else(|| self.near_miss(surface, &axis.line)) {
+        match found.unwrap_or_else(|| self.near_miss(wrench, surface, &axis.line)) {
             Ok(Place { point, normal, gap, alternatives }) => {
                 Resolution::Contact(Contact { gap, alternatives, ..contact_at(wrench, point, normal) })
             }
@@ -369,12 +339,26 @@ impl<T: Real> PointContact<T> {
 
     /// What to make of a line that misses.
     #[inline(always)]
-    fn near_miss<S: ActiveSurface<T>>(&self, surface: &S, line: &Line<T>) -> Result<Place<T>, NoContact<T>> {
+    fn near_miss<S: ActiveSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        surface: &S,
+        line: &Line<T>,
+    ) -> Result<Place<T>, NoContact<T>> {
         let Some(approach) = surface.closest_approach(line) else {
             return Err(NoContact::Misses { closest: None });
         };
         if !(in_range(&approach.point) && approach.gap.is_number()) {
             return Err(NoContact::NotFinite);
+        }
+        // Rounding may make a line miss that meets: then double precision knows, where that is told.
+        let hair = T::EPSILON * T::literal(64.0) * largest(&approach.point);
+        if approach.active
+            && approach.gap <= hair
+            && let Some((point, normal)) = in_double(wrench, surface, &approach.point)
+            && -line.direction.dot(&normal) >= self.least_incidence
+        {
+            return Ok(Place::at(point, normal));
         }
         let incidence = larger(-line.direction.dot(&approach.normal), T::zero());
         if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {

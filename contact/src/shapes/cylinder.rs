@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 #[cfg(feature = "batch")]
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
-use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, scale};
+use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, cross, dot, scale};
 use crate::model::flat;
 use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::double::{finely, spins_little};
@@ -195,7 +195,8 @@ impl<T: Real> Kernel<T> for Cylinder<T> {
         let drift = add(push.force, core, -rise);
         let inverse = T::one() / dot(drift, drift);
         let along = -dot(across, drift) * inverse;
-        let foot = scale(add(across, drift, along), curvature);
+        let aside = cross(core, drift);
+        let foot = scale(aside, dot(across, aside) * inverse * curvature);
         let chord = Chord::new(dot(foot, foot), inverse, lines);
         let normal = add(scale(foot, chord.shrink), drift, -chord.back);
         let height = height + (along - chord.back * radius) * rise;

@@ -17,6 +17,7 @@ mod point_contact;
 mod skins;
 mod spherical_cap;
 mod stored;
+mod superquadrics;
 mod thresholds;
 mod track;
 mod worst_case;

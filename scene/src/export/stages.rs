@@ -25,7 +25,7 @@ const MODELS: &[Row] = &[
         "soft_finger",
         "contact::SoftFinger<{T}>",
         "contact::SoftFinger::new({least_force_N})?{?.with_greatest_friction({greatest_friction_ratio})??}\
-         {?.with_torque_arm({torque_arm_m})??}",
+         {?.with_torque_noise({spin_noise_Nm})??}{?.with_torque_arm({torque_arm_m})??}",
     ),
     row(
         "auto",

@@ -87,6 +87,7 @@ keys!(KEYS, "Keys of whole sections, section by section.":
     Optional "greatest_gap_m", "of point and auto: a line of action that misses the surface by no more than this still counts, 0 by default";
     Optional "greatest_friction_ratio", "a force whose tangential part exceeds so many times its normal part is no contact (`beyond_friction`). A point contact has no limit by default; a soft finger has 10, since a line of action that misses has noise along it that looks like a spin torque, which only a contact that next to nothing presses would explain";
     Optional "torque_arm_m", "of soft_finger and auto, with the ratio: by which a spin torque counts as a tangential force, no more than the radius of the patch";
+    Optional "spin_noise_Nm", "of soft_finger and auto: a torque along the force of no more than this may be noise, 0 by default; take three standard deviations of the torque at rest. A line of action that misses is `ambiguous` then, with the two places between which the spin torque would choose";
     Optional "greatest_pitch_m", "of auto: a wrench whose torque along the force is more than this times the force is not of one contact";
     Optional "pitch_deviations", "of auto: by so many standard deviations, 3 by default";
     Optional "skin_share", "with a skin: its share of the indentation, between 0 and 1, the object taking the rest; 1 by default";

@@ -281,6 +281,9 @@ fn a_calibration_of_the_scene_goes_into_its_module() {
         "[contact]\nmodel = \"soft_finger\"\ngreatest_friction_ratio = 10.0\ntorque_arm_m = 0.003\n";
     let text = scene(limited).to_rust(fingertip_scene::Scalar::F64, None).unwrap();
     assert!(text.contains(".with_greatest_friction(10.0)?.with_torque_arm(0.003)?"), "{text}");
+    let doubted = "[contact]\nmodel = \"soft_finger\"\nspin_noise_Nm = 0.0002\n";
+    let text = scene(doubted).to_rust(fingertip_scene::Scalar::F64, None).unwrap();
+    assert!(text.contains("SoftFinger::new(0.0)?.with_torque_noise(0.0002)?"), "{text}");
     for (more, words) in [
         ("[contact]\nleast_force_deviations = 5.0\n", "that the rest tells"),
         ("[uncertainty]\n", "that the rest tells"),

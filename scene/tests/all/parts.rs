@@ -250,6 +250,26 @@ fn an_uncertain_geometry_is_the_librarys() {
     assert!(seen > 50, "{seen}");
 }
 
+/// A force that misses says by its torque where it touches, unless that may be noise.
+#[test]
+fn a_torque_along_a_force_may_be_noise() {
+    use fingertip::contact::{NoContact, Resolution};
+    let soft = SoftFinger::new(0.0).unwrap().with_greatest_friction(1e6).unwrap();
+    let typed = soft.with_torque_noise(2e-4).unwrap();
+    let text = "[contact]\nmodel = \"soft_finger\"\ngreatest_friction_ratio = 1e6\n";
+    let (mut sure, mut doubtful) = (pipeline(text), pipeline(&format!("{text}spin_noise_Nm = 0.0002\n")));
+    // 2 N past the ball of 13 mm at 14 mm, with 0.1 N·mm along it, and with 0.3.
+    for (torque, is_noise) in [(1e-4, true), (3e-4, false)] {
+        let force = Vector3::new(0.0, 2.0, 0.0);
+        let torque = Vector3::new(0.014, 0.0, 0.0).cross(&force) + Vector3::y() * torque;
+        let push = Wrench::on_fingertip(force, torque);
+        let told = doubtful.sense(push, 1e-3).touch.resolution;
+        assert_eq!(told, typed.resolve(&push, &ball()));
+        assert_eq!(matches!(told, Resolution::NoContact(NoContact::Ambiguous { .. })), is_noise, "{told:?}");
+        assert!(sure.sense(push, 1e-3).touch.resolution.contact().is_some());
+    }
+}
+
 #[test]
 fn a_soft_finger_may_be_limited_by_friction() {
     let soft = SoftFinger::new(0.05).unwrap().with_greatest_friction(0.4).unwrap();

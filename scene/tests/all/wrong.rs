@@ -78,6 +78,8 @@ fn faults_are_named() {
         (with("[contact]\nmodel = \"soft_finger\"\ngreatest_gap_m = 0.001\n"), "`greatest_gap_m`"),
         (with("[contact]\nmodel = \"soft_finger\"\ntorque_arm_m = 0.003\n"), "`greatest_friction_ratio`"),
         (with("[contact]\ngreatest_pitch_m = 0.01\n"), "`greatest_pitch_m`"),
+        (with("[contact]\nspin_noise_Nm = 1e-4\n"), "`spin_noise_Nm`"),
+        (with("[contact]\nmodel = \"soft_finger\"\nspin_noise_Nm = -1e-4\n"), "torque noise"),
         (with("[contact]\nskin_share = 0.5\n"), "`skin_share`"),
         (with("[contact]\npitch_deviations = 3.0\n"), "`pitch_deviations`"),
         (with("[contact.skin]\nlaw = \"linear\"\nstiffness_N_per_m = -1.0\nradius_m = 0.01\n"), "stiffness"),

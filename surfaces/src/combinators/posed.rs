@@ -136,6 +136,10 @@ impl<T: Real, S: ActiveSurface<T>, M: Shortcuts<T>> Shortcuts<T> for InPlace<'_,
         let surface = &self.posed.surface;
         surface.shortcuts().surface_residual(&inside) + surface.normal(&inside).dot(&left)
     }
+
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        self.moved.entry_in_double(line, near)
+    }
 }
 
 impl<T: Real, S: SignedDistance<T>> SignedDistance<T> for Posed<T, S> {

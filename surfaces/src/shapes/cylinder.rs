@@ -117,8 +117,11 @@ impl<T: Real> Cylinder<T> {
         if squared <= T::EPSILON * T::EPSILON * T::literal(16.0) {
             return None;
         }
-        let along = -offset.dot(&across) / squared;
-        Some((along, (offset + across * along) * self.curvature, across, squared))
+        // Of the offset only what is square to the direction: then normals are unit vectors, however far off the
+        // line's own point is, and with it the rounding of the offset.
+        let aside = self.axis.cross(&across);
+        let foot = aside * (offset.dot(&aside) / squared * self.curvature);
+        Some((-offset.dot(&across) / squared, foot, across, squared))
     }
 
     #[inline]

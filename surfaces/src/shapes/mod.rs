@@ -26,6 +26,8 @@ mod sphere;
 mod spherical_cap;
 mod steepness;
 mod superquadric;
+mod superquadric_entry;
+mod superquadric_gauge;
 mod term;
 mod torus;
 
@@ -48,8 +50,8 @@ pub use revolution::Revolution;
 pub use rounded_box::RoundedBox;
 pub use sphere::Sphere;
 pub use spherical_cap::SphericalCap;
-#[doc(hidden)]
-pub use superquadric::Gauge;
 pub use superquadric::Superquadric;
+#[doc(hidden)]
+pub use superquadric_gauge::Gauge;
 pub use term::Term;
 pub use torus::Torus;

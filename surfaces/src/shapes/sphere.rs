@@ -84,7 +84,9 @@ impl<T: Real> Sphere<T> {
     fn foot(&self, line: &Line<T>) -> (Vector3<T>, T) {
         let from_centre = line.point - self.centre;
         let along = -from_centre.dot(&line.direction);
-        ((from_centre + line.direction * along) * self.curvature, along)
+        // Square to the direction whatever rounding left of a long way: so normals are unit vectors.
+        let foot = from_centre + line.direction * along;
+        ((foot - line.direction * foot.dot(&line.direction)) * self.curvature, along)
     }
 }
 

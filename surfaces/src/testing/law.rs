@@ -65,7 +65,8 @@ pub enum Law {
     NoNan,
     /// A wrapper answers as the shape inside does.
     WrapperKeepsAnswers,
-    /// A wrapper passes on [`surface_residual`](crate::Shortcuts::surface_residual).
+    /// A wrapper passes on [`surface_residual`](crate::Shortcuts::surface_residual) and
+    /// [`entry_in_double`](crate::Shortcuts::entry_in_double).
     WrapperKeepsResidual,
     /// A wrapper passes on [`sole_entry`](crate::Shortcuts::sole_entry).
     WrapperKeepsEntry,

@@ -13,6 +13,7 @@ trait Answers<T: Real> {
     fn normal(&self, point: &Vector3<T>) -> Vector3<T>;
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>>;
     fn surface_residual(&self, point: &Vector3<T>) -> T;
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]>;
     fn contains(&self, point: &Vector3<T>) -> bool;
 }
 
@@ -35,6 +36,10 @@ impl<T: Real, S: ActiveSurface<T>> Answers<T> for S {
 
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         self.shortcuts().surface_residual(point)
+    }
+
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        self.shortcuts().entry_in_double(line, near)
     }
 
     fn contains(&self, point: &Vector3<T>) -> bool {
@@ -85,5 +90,9 @@ impl<T: Real> Shortcuts<T> for Tried<'_, T> {
 
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         self.surface.surface_residual(point)
+    }
+
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        self.surface.entry_in_double(line, near)
     }
 }

@@ -7,7 +7,7 @@ use super::law::{Law, Violation};
 use super::laws::SurfaceLaws;
 use super::random::Random;
 use super::tried::Tried;
-use crate::numeric::vectors::length;
+use crate::numeric::vectors::{length, wide};
 use crate::{ActiveSurface, Entry, ForceLine, Shortcuts};
 
 /// What a wrapper keeps of the shape inside, beside its answers; each includes those before.
@@ -38,7 +38,7 @@ use crate::{ActiveSurface, Entry, ForceLine, Shortcuts};
 pub enum Kept {
     /// None of its [`Shortcuts`].
     Answers,
-    /// [`surface_residual`](Shortcuts::surface_residual).
+    /// [`surface_residual`](Shortcuts::surface_residual) and [`entry_in_double`](Shortcuts::entry_in_double).
     Residual,
     /// [`sole_entry`](Shortcuts::sole_entry).
     Entry,
@@ -97,6 +97,13 @@ impl<T: Real> SurfaceLaws<T> {
                     let off = crossing.point + crossing.normal * (self.radius * T::EPSILON.root());
                     let [inner, outer] = [surface, wrapper].map(|s| s.surface_residual(&off));
                     self.expect(Law::WrapperKeepsResidual, &line, (inner - outer).abs(), allowed)?;
+                    let exactly = Line { point: wide(&line.point), direction: wide(&line.direction) };
+                    let near = wide(&crossing.point);
+                    let apart = match [surface, wrapper].map(|s| s.entry_in_double(&exactly, &near)) {
+                        [Some(a), Some(b)] => T::literal((a[0] - b[0]).norm() + (a[1] - b[1]).norm()),
+                        [a, b] => count(a.is_some() != b.is_some()),
+                    };
+                    self.expect(Law::WrapperKeepsResidual, &line, apart, allowed)?;
                 }
             }
             if kept >= Kept::Entry {

@@ -8,6 +8,7 @@ mod dyn_surface;
 mod every_shape;
 mod extents;
 mod far_lines;
+mod far_normals;
 mod formula;
 mod heightfield;
 mod hostile_files;

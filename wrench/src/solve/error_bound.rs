@@ -3,8 +3,9 @@
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use thiserror::Error;
 
+use crate::solve::closely::Closely;
 use crate::solve::nonnegative::neumann;
-use crate::{Real, SensorMatrix, Wrench, WrenchSolver};
+use crate::{LinearMap, Real, SensorMatrix, Wrench, WrenchSolver};
 
 /// What is not known of a sensor, as worst cases. Plain data; all zero means that only the solver's
 /// own error counts.
@@ -66,8 +67,11 @@ impl<T: Real, const N: usize> Uncertainty<T, N> {
 /// With `S` the solver's map, the true load `P` and its estimate `P̂` differ by
 /// `e ≤ |SC − I||P| + |S||dC||P| + |S||dV| + rounding`, and `|P| ≤ |P̂| + e`; so, with
 /// `G = |SC − I| + |S||dC| + …`, `e ≤ (I − G)⁻¹ (G|P̂| + |S||dV| + …)` as long as the powers of
-/// `G` vanish ([`OwnError`](crate::OwnError) has the terms). All of it is multiplied out at
-/// construction; a sample costs two small products.
+/// `G` vanish. What rounding does is counted beforehand ([`OwnError`](crate::OwnError) has the terms), and, since a
+/// count of the worst signs is a hundred times what happens, also found of the very sample: `P̂ − S·signals` in twice
+/// the precision (`docs/theory/wrench.md#error-bound-of-a-solve`). The smaller of both bounds is told. All else is
+/// multiplied out at construction; a sample costs some products of six by as many numbers as there are gauges, two of
+/// them in twice the precision.
 ///
 /// ```
 /// use fingertip_wrench::{ErrorBound, Inverse, SensorMatrix, Uncertainty, WrenchSolver};
@@ -87,6 +91,8 @@ pub struct ErrorBound<T: Real, const N: usize> {
     per_load: Matrix6<T>,
     per_signal: SMatrix<T, 6, N>,
     constant: Vector6<T>,
+    closely: Closely<T, N>,
+    floor: Vector6<T>,
 }
 
 /// Why a solver's error has no bound.
@@ -142,7 +148,7 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
         }) {
             return Err(NoErrorBound::BadUncertainty { gauge });
         }
-        let own = solver.linear_map(sensor).ok_or(NoErrorBound::NotLinear)?.own_error;
+        let LinearMap { gain, own_error: own } = solver.linear_map(sensor).ok_or(NoErrorBound::NotLinear)?;
         let relative = own.per_load + own.magnitude * uncertainty.matrix;
         let amplified = neumann(&relative).ok_or(NoErrorBound::Unbounded)?;
         // The bound itself is computed with rounding: some sixty operations on positive numbers.
@@ -153,7 +159,10 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
             per_load: Matrix6::from_fn(|i, j| per_load_normalised[(i, j)] / sensor.nominal()[j]),
             per_signal: nominal * amplified * own.per_signal,
             constant: nominal * amplified * (own.magnitude * uncertainty.signals),
+            closely: Closely::new(sensor, &gain, uncertainty, margin),
+            floor: Vector6::zeros(),
         };
+        let bound = Self { floor: bound.at(&SVector::zeros(), &Wrench::zero()), ..bound };
         let finite = bound.per_load.iter().chain(bound.per_signal.iter()).chain(bound.constant.iter());
         if finite.copied().all(T::is_number) { Ok(bound) } else { Err(NoErrorBound::Unbounded) }
     }
@@ -163,13 +172,18 @@ impl<T: Real, const N: usize> ErrorBound<T, N> {
     #[inline]
     #[must_use]
     pub fn at(&self, signals: &SVector<T, N>, wrench: &Wrench<T>) -> Vector6<T> {
-        self.per_load * wrench.components().abs() + self.per_signal * signals.abs() + self.constant
+        let (load, reading) = (wrench.components().abs(), signals.abs());
+        let counted = self.per_load * load + self.per_signal * reading + self.constant;
+        // False for a NaN, which a residual beyond the range of the type is.
+        self.closely
+            .at(signals, wrench)
+            .zip_map(&counted, |found, counted| if found < counted { found } else { counted })
     }
 
     /// The part that is there without load: the floor that noise sets \[N, N, N, N·m, N·m, N·m\].
     #[inline]
     #[must_use]
     pub const fn floor(&self) -> &Vector6<T> {
-        &self.constant
+        &self.floor
     }
 }

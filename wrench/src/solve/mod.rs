@@ -1,5 +1,6 @@
 //! From signals to wrench, with the error of the answer.
 
+mod closely;
 mod combination;
 pub(crate) mod compensated;
 mod conditioning;

@@ -144,54 +144,78 @@ fn bound_of_least_squares_holds() {
     never_violated::<f32, 9, _>((11, 9.0), SENSORS, LOADS, extended, new);
 }
 
-/// With nothing uncertain, the bound is about rounding alone. `typical` as above: rounding errors cancel
-/// the more, the more of them are counted.
+/// With nothing uncertain, the bound is about rounding alone: so many sensors, and so many loads on each. Returns the
+/// median of bound over error.
 fn rounding_alone<T: Real, S: WrenchSolver<T, 6>>(
-    (seed, condition, typical): (u128, f64, f64),
+    (seed, condition): (u128, f64),
+    [sensors, loads]: [usize; 2],
     build: impl Fn(&SensorMatrix<T, 6>) -> S,
-) {
+) -> f64 {
     let mut random = generator(seed);
     let mut ratios = Vec::new();
-    for _ in 0..500 {
-        let sensor = sensor::<T, 6>(&of_condition::<6>(&mut random, condition));
+    // Powers of two, and numbers that round whatever they are multiplied by.
+    let nominals = [[32.0, 16.0, 8.0, 0.25, 0.5, 0.125], [31.7, 14.9, 7.3, 0.27, 0.49, 0.11]];
+    for k in 0..sensors {
+        let nominal = Vector6::from(nominals[k % 2].map(T::literal));
+        let matrix = cast(&of_condition::<6>(&mut random, condition));
+        let sensor = SensorMatrix::new(matrix, nominal).expect("a proper sensor");
         let matrix = wide(sensor.normalised());
         let solver = build(&sensor);
         let bound = ErrorBound::new(&sensor, &solver, &Uncertainty::none()).expect("bounded");
-        for _ in 0..100 {
+        for _ in 0..loads {
             let signals: Vector6<T> = cast(&(matrix * random_vector::<6>(&mut random)));
             let exact = solve(&matrix, &wide(&signals));
             let found = solver.solve(&signals);
             let nominal = wide(sensor.nominal());
             let off = difference(&wide(&found.components()).component_div(&nominal), &exact).abs();
             let allowed = wide(&bound.at(&signals, &found)).component_div(&nominal);
+            // The test divides with rounding, too.
+            let divided = wide(&found.components()).component_div(&nominal).abs() * f64::EPSILON;
             for axis in 0..6 {
-                assert!(off[axis] <= allowed[axis], "axis {axis}: {} > {}", off[axis], allowed[axis]);
+                let most = allowed[axis] + if k % 2 == 0 { 0.0 } else { divided[axis] };
+                assert!(off[axis] <= most, "axis {axis}: {} > {}", off[axis], allowed[axis]);
             }
             ratios.push(allowed.norm() / off.norm());
         }
     }
     let median = median(&mut ratios);
     println!(
-        "{} at condition {condition:e}: median bound / rounding error {median:.1}",
-        core::any::type_name::<S>()
+        "{} at condition {condition:e}: {} trials, median bound / rounding error {median:.2}",
+        core::any::type_name::<S>(),
+        ratios.len()
     );
-    assert!(median <= typical, "{median}");
+    median
+}
+
+/// Of every solver for six gauges: never broken, and near the error. Counted beforehand, as of the worst signs, the
+/// median would be 70 for elimination, 14 for the inverse and 5 for what is refined.
+fn rounding_is_bound<T: Real>(seed: u128, conditions: &[f64], trials: [usize; 2], typical: f64) {
+    for condition in conditions {
+        let from = (seed, *condition);
+        let medians = [
+            rounding_alone::<T, _>(from, trials, |s| GaussianElimination::new(s).expect("regular")),
+            rounding_alone::<T, _>(from, trials, |s| Inverse::new(s).expect("regular")),
+            rounding_alone::<T, _>(from, trials, |s| Refined::new(s).expect("regular")),
+            rounding_alone::<T, _>(from, trials, |s| LeastSquares::new(s).expect("regular")),
+        ];
+        assert!(medians.iter().all(|median| *median <= typical), "{medians:?}");
+    }
 }
 
 #[test]
 fn bound_on_rounding_holds() {
-    for (seed, condition) in [(20, 2.0), (21, 1e3), (22, 1e8)] {
-        rounding_alone::<f64, _>((seed, condition, 77.0), |s| GaussianElimination::new(s).expect("regular"));
-        rounding_alone::<f64, _>((seed, condition, 15.0), |s| Inverse::new(s).expect("regular"));
-        rounding_alone::<f64, _>((seed, condition, 5.7), |s| Refined::new(s).expect("regular"));
-        rounding_alone::<f64, _>((seed, condition, 8.2), |s| LeastSquares::new(s).expect("regular"));
-    }
-    for (seed, condition) in [(23, 2.0), (24, 1e3)] {
-        rounding_alone::<f32, _>((seed, condition, 77.0), |s| GaussianElimination::new(s).expect("regular"));
-        rounding_alone::<f32, _>((seed, condition, 15.0), |s| Inverse::new(s).expect("regular"));
-        rounding_alone::<f32, _>((seed, condition, 5.7), |s| Refined::new(s).expect("regular"));
-        rounding_alone::<f32, _>((seed, condition, 8.2), |s| LeastSquares::new(s).expect("regular"));
-    }
+    // Measured: 1.0 to 1.1.
+    rounding_is_bound::<f64>(20, &[2.0, 1e3, 1e8], [500, 100], 1.2);
+    rounding_is_bound::<f32>(23, &[2.0, 1e3], [500, 100], 1.2);
+}
+
+#[test]
+#[ignore = "ten million trials: minutes"]
+fn bound_on_rounding_holds_in_ten_million_trials() {
+    rounding_is_bound::<f32>(25, &[2.0, 30.0, 1e3], [10_000, 50], 1.2);
+    // Of a refined answer nearly all digits are right, which twice the digits do not tell apart any more: 6.5.
+    rounding_is_bound::<f32>(26, &[1e5], [10_000, 50], 7.2);
+    rounding_is_bound::<f64>(27, &[2.0, 1e8], [5_000, 50], 1.2);
 }
 
 /// Equation (14), with perturbations of known spectral norm, half of them the worst there are.

@@ -76,8 +76,8 @@ fn here() -> Layout {
         ft_pose { rotation, origin }
         ft_reading { gauges, count, dummy, celsius, motion }
         ft_touch {
-            resolution, slip, has_margin, alternatives, wrench, point, normal, normal_force, tangential_force,
-            spin_torque, gap, margin, utilisation,
+            resolution, slip, has_margin, alternatives, searched, reserved, wrench, point, normal, normal_force,
+            tangential_force, spin_torque, gap, margin, utilisation,
         }
         ft_touch_columns {
             point_x, point_y, point_z, normal_force, tangential_x, tangential_y, tangential_z, margin,

@@ -92,7 +92,8 @@ pub(crate) fn bits(touch: &ft_touch) -> Vec<u64> {
     let numbers = [touch.normal_force, touch.spin_torque, touch.gap, touch.margin, touch.utilisation];
     let vectors =
         [touch.wrench.force, touch.wrench.torque, touch.point, touch.normal, touch.tangential_force];
-    let whole = [touch.resolution as u32, touch.slip as u32, touch.has_margin, touch.alternatives];
+    let whole =
+        [touch.resolution as u32, touch.slip as u32, touch.has_margin, touch.alternatives, touch.searched];
     let numbers = vectors.as_flattened().iter().chain(&numbers).map(|x| x.to_bits());
     whole.into_iter().map(u64::from).chain(numbers).collect()
 }

@@ -32,6 +32,7 @@ fn agrees(touch: &ft_touch, felt: &Felt<f64>) {
     assert_eq!(touch.point, <[f64; 3]>::from(contact.point));
     assert_eq!(touch.normal, <[f64; 3]>::from(contact.normal));
     assert_eq!((touch.gap, touch.alternatives), (contact.gap, u32::from(contact.alternatives)));
+    assert_eq!((touch.searched, touch.reserved), (u32::from(contact.searched), 0));
     let force = felt.force().unwrap();
     assert_eq!(touch.normal_force, force.normal);
     assert_eq!(touch.tangential_force, <[f64; 3]>::from(force.tangential.vector()));
@@ -54,6 +55,20 @@ const RICH: &str = "[contact]\nmodel = \"soft_finger\"\n[uncertainty]\nforce_noi
     [friction]\nlimit = \"uncertain\"\nstatic_coefficient = 0.6\ndeviation = 0.05\n\
     [slip]\ndetector = \"drop\"\nnoise_N = 0.01\n[estimate]\nnoise_N = 0.01\n\
     [grip]\nleast_N = 0.3\ngreatest_N = 15.0\nrise_N_per_s = 200.0\nfall_N_per_s = 2.0\n";
+
+/// Of a surface that tells nothing of itself contacts are searched for, and that is said.
+#[test]
+fn a_search_is_said_to_be_one() {
+    for (topology, searched) in [("convex = true\n", 0), ("", 1)] {
+        let tip = Tip::new(&format!(
+            "{HEAD}[surface]\nshape = \"formula\"\nreach_m = 0.018\n{topology}\
+             outside = \"(x/0.01)^2 + (y/0.012)^2 + (z/0.014)^2 - 1\"\n[contact]\nmodel = \"soft_finger\"\n"
+        ));
+        let wrench = ft_wrench { force: [0.1, 0.0, -1.0], torque: [0.0, 0.0014, 1e-4] };
+        let touch = sense(&tip, &wrench, STEP);
+        assert_eq!((touch.resolution, touch.searched), (ft_resolution::FT_CONTACT, searched), "{touch:?}");
+    }
+}
 
 #[test]
 fn a_touch_is_what_the_pipeline_says() {
