@@ -1,14 +1,14 @@
 //! A client over a UDP socket.
 
 use core::time::Duration;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::net::{TcpStream, ToSocketAddrs, UdpSocket};
-use std::time::Instant;
 
 use fingertip_wrench::{Real, Wrench};
 use thiserror::Error;
 
 use super::configuration::{Configuration, ConfigurationError};
+use super::deadline::Deadline;
 use super::receiver::{CountsPerUnit, RdtError, Receiver};
 use super::wire::{Command, Record, Request, WireError, records};
 use crate::polled::NbSource;
@@ -234,28 +234,15 @@ impl<T: Real> RdtClient<T> {
 
 /// Asks for the page; all of it must have come within the timeout.
 fn page(sensor: impl ToSocketAddrs, timeout: Duration) -> io::Result<Vec<u8>> {
-    let end = Instant::now() + timeout;
-    let left = || {
-        let left = end.saturating_duration_since(Instant::now());
-        if left.is_zero() { Err(io::Error::from(io::ErrorKind::TimedOut)) } else { Ok(left) }
-    };
+    let end = Deadline::within(timeout);
     let address = sensor.to_socket_addrs()?.next();
     let address = address.ok_or_else(|| io::Error::from(io::ErrorKind::AddrNotAvailable))?;
-    let mut stream = TcpStream::connect_timeout(&address, left()?)?;
-    stream.set_write_timeout(Some(left()?))?;
+    let mut stream = TcpStream::connect_timeout(&address, end.left()?)?;
+    stream.set_write_timeout(Some(end.left()?))?;
     stream.write_all(Configuration::REQUEST.as_bytes())?;
     let mut page = Vec::new();
-    let mut piece = [0; 4096];
     // A page is some kilobytes; whatever serves more is no sensor.
-    while page.len() < 1 << 20 {
-        stream.set_read_timeout(Some(left()?))?;
-        match stream.read(&mut piece) {
-            Ok(0) => break,
-            Ok(length) => page.extend_from_slice(piece.get(..length).unwrap_or_default()),
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-    }
+    while page.len() < 1 << 20 && end.read(&mut stream, &mut page)? > 0 {}
     Ok(page)
 }
 

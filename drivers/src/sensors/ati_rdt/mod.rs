@@ -22,6 +22,8 @@ mod wire;
 mod client;
 #[cfg(feature = "std")]
 mod configuration;
+#[cfg(feature = "std")]
+mod deadline;
 #[cfg(feature = "simulators")]
 mod simulator;
 

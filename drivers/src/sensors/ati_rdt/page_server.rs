@@ -2,12 +2,12 @@
 
 use core::sync::atomic::Ordering;
 use core::time::Duration;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::net::{Shutdown, TcpListener, TcpStream, ToSocketAddrs};
 use std::thread;
-use std::time::Instant;
 
 use super::Configuration;
+use super::deadline::Deadline;
 use crate::sensors::Served;
 
 /// How often it looks whether somebody asks.
@@ -47,11 +47,11 @@ pub(super) fn serve_page(
 
 fn answer(mut stream: TcpStream, configuration: &Configuration) -> io::Result<()> {
     stream.set_nonblocking(false)?;
-    let end = Instant::now() + PATIENCE;
+    let end = Deadline::within(PATIENCE);
     stream.set_write_timeout(Some(PATIENCE))?;
     let mut request = Vec::new();
     while !is_whole(&request) && request.len() < LONGEST {
-        if read_until(&mut stream, end, &mut request)? == 0 {
+        if end.read(&mut stream, &mut request)? == 0 {
             break;
         }
     }
@@ -59,21 +59,8 @@ fn answer(mut stream: TcpStream, configuration: &Configuration) -> io::Result<()
     // What is closed with bytes unread is reset, and takes the answer with it.
     stream.shutdown(Shutdown::Write)?;
     let mut rest = Vec::new();
-    while rest.len() < 8 * LONGEST && read_until(&mut stream, end, &mut rest)? > 0 {}
+    while rest.len() < 8 * LONGEST && end.read(&mut stream, &mut rest)? > 0 {}
     Ok(())
-}
-
-/// Reads what comes next, if it comes in time.
-fn read_until(stream: &mut TcpStream, end: Instant, to: &mut Vec<u8>) -> io::Result<usize> {
-    let left = end.saturating_duration_since(Instant::now());
-    if left.is_zero() {
-        return Err(io::ErrorKind::TimedOut.into());
-    }
-    stream.set_read_timeout(Some(left))?;
-    let mut bytes = [0; 512];
-    let length = stream.read(&mut bytes)?;
-    to.extend_from_slice(bytes.get(..length).unwrap_or_default());
-    Ok(length)
 }
 
 fn is_whole(request: &[u8]) -> bool {
