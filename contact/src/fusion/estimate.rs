@@ -117,7 +117,7 @@ impl<T: Real> Fusion<T> {
             let Some((rested, left)) = search.step(surface) else { break };
             (settled, disagreement) = (rested, left);
         }
-        let (gain, covariances) = search.factors(Prior::covariance).ok_or(lost)?;
+        let posteriors = search.posteriors().ok_or(lost)?;
         let mut contacts = [FusedContact {
             point: Vector3::zeros(),
             normal: Vector3::zeros(),
@@ -129,9 +129,7 @@ impl<T: Real> Fusion<T> {
         }; K];
         for (i, contact) in contacts.iter_mut().enumerate() {
             let (Some(prior), Some(state)) = (search.priors[i], search.states[i]) else { continue };
-            let (covariance, jacobian) = covariances[i];
-            let through = jacobian * covariance;
-            let posterior: Matrix5<T> = covariance - through.transpose() * gain * through;
+            let posterior = posteriors[i];
             let force_covariance = posterior.fixed_view::<3, 3>(2, 2).into_owned();
             let before = prior.covariance().fixed_view::<3, 3>(2, 2).trace();
             let [t1, t2] = prior.moved_tangents(&state);
@@ -170,17 +168,38 @@ type Linear<T> = (Matrix5<T>, Matrix6x5<T>);
 type Linearised<T, const K: usize> = ([Linear<T>; K], [Vector5<T>; K], [Wall<T>; K], Vector6<T>);
 
 impl<T: Real, const K: usize> Search<'_, T, K> {
-    /// The inverse covariance of the innovation at the present states, with each contact's
-    /// covariance and Jacobian.
-    fn factors(&self, covariance: impl Fn(&Prior<T>) -> Matrix5<T>) -> Option<(Matrix6<T>, [Linear<T>; K])> {
+    /// Covariances of shifts and forces at the present states, with what the wrench says.
+    ///
+    /// With the gain `K = C Jᵀ S⁻¹`, the covariance is `(I − K J) C (I − K J)ᵀ + K R Kᵀ` for what `R` the innovation has of
+    /// the wrench and of the other contacts (Joseph, in Bucy & Joseph 1968): sums of squares, which rounding makes no less
+    /// than zero, and the truth for any gain, where `C − K J C` is right for the exact one alone. `None` without a prior or a
+    /// state, or where they leave the range.
+    fn posteriors(&self) -> Option<[Matrix5<T>; K]> {
         let mut linear = [(Matrix5::zeros(), Matrix6x5::zeros()); K];
-        for (i, slot) in linear.iter_mut().enumerate() {
+        let mut roots = [Matrix5::zeros(); K];
+        for i in 0..K {
             let (prior, state) = (self.priors[i].as_ref()?, self.states[i].as_ref()?);
-            *slot = (covariance(prior), prior.jacobian(state));
+            linear[i] = (prior.covariance(), prior.jacobian(state));
+            roots[i] = prior.root();
         }
-        Some((self.gain(&linear)?, linear))
+        let gain = self.gain(&linear)?;
+        let wrench = self.fusion.wrench_covariance.cholesky()?.unpack();
+        let mut posteriors = [Matrix5::zeros(); K];
+        for (i, posterior) in posteriors.iter_mut().enumerate() {
+            let (covariance, jacobian) = &linear[i];
+            let own = covariance * jacobian.transpose() * gain;
+            let of_wrench = own * wrench;
+            *posterior = of_wrench * of_wrench.transpose();
+            for (j, root) in roots.iter().enumerate() {
+                let others = own * linear[j].1;
+                let part = if i == j { (Matrix5::identity() - others) * root } else { others * root };
+                *posterior += part * part.transpose();
+            }
+        }
+        posteriors.iter().all(|posterior| posterior.sum().is_number()).then_some(posteriors)
     }
 
+    /// The inverse covariance of the innovation.
     fn gain(&self, linear: &[Linear<T>; K]) -> Option<Matrix6<T>> {
         let mut total = self.fusion.wrench_covariance;
         for (covariance, jacobian) in linear {

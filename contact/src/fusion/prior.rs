@@ -160,6 +160,21 @@ impl<T: Real> Prior<T> {
         whole
     }
 
+    /// A root of that covariance, which times its transpose is the covariance.
+    pub(super) fn root(&self) -> Matrix5<T> {
+        let [x, y, z] = [self.normal, self.tangents[0], self.tangents[1]];
+        let (normal, tangential) = (self.normal_variance.root(), self.tangential_variance.root());
+        let force = Matrix3::from_columns(&[x * normal, y * tangential, z * tangential]);
+        let spread = &self.shift_covariance;
+        let first = spread[(0, 0)].root();
+        let mixed = if first > T::zero() { spread[(1, 0)] / first } else { T::zero() };
+        let second = (spread[(1, 1)] - mixed * mixed).max(T::zero()).root();
+        let mut whole = Matrix5::zeros();
+        whole.fixed_view_mut::<2, 2>(0, 0).copy_from(&Matrix2::new(first, T::zero(), mixed, second));
+        whole.fixed_view_mut::<3, 3>(2, 2).copy_from(&force);
+        whole
+    }
+
     /// Derivatives of the contact's wrench by shift and force.
     pub(super) fn jacobian(&self, state: &State<T>) -> Matrix6x5<T> {
         let mut jacobian = Matrix6x5::zeros();

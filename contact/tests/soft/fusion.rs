@@ -328,3 +328,32 @@ fn single_precision_is_enough() {
     );
     assert!(worst < 0.01 && unsettled == 0, "{worst} {unsettled}");
 }
+
+/// Readings from 10⁻⁹ N to 10³⁰ N beside each other, of which rounding leaves nothing but the greatest: what is not known of a
+/// contact is never less than nothing.
+#[test]
+fn no_variance_is_below_zero_however_far_apart_readings_are() {
+    let (mut random, surface) =
+        (Random::new(71), Ellipsoid::new(Vector3::new(0.0095, 0.011, 0.013)).unwrap());
+    let fusion = Fusion::new(noise(), 0.6).unwrap();
+    let mut told = 0;
+    for _ in 0..4000 {
+        let readings: [ArrayContact<f64>; 3] = core::array::from_fn(|_| {
+            let normal_force = random.log_uniform(1e-9, 1e30);
+            let centroid_covariance = Matrix3::identity() * 1e-6;
+            let normal_deviation = 0.05 + 0.1 * normal_force;
+            let centroid = random.place(&surface, 0.017).0;
+            ArrayContact { centroid, centroid_covariance, normal_force, normal_deviation }
+        });
+        let wrench = Wrench::from_force_at(&random.place(&surface, 0.017).0, random.direction());
+        let Ok(fused) = fusion.estimate(&surface, &wrench, &readings) else { continue };
+        told += 1;
+        for contact in fused.contacts {
+            for covariance in [contact.point_covariance, contact.force_covariance] {
+                assert!(covariance.diagonal().min() >= 0.0, "{covariance} of {readings:?}");
+                assert!((covariance - covariance.transpose()).amax() <= 1e-12 * covariance.amax());
+            }
+        }
+    }
+    assert!(told > 1000, "{told}");
+}
