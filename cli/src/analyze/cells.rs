@@ -62,38 +62,30 @@ impl Cells {
     /// Appends numbers of eight significant digits, with a comma before each; nothing behind it for what is not finite.
     #[inline]
     pub(super) fn put_numbers(&mut self, numbers: &[f64]) {
-        const ROOM: usize = 2 + digits::ROOM;
         let start = self.filled;
         // Each is written whole, of which only the first bytes count.
-        let mut room = self.room(numbers.len() * ROOM);
+        let room = self.room(numbers.len() * digits::ROOM);
         let mut left = numbers.iter();
         let mut written = 0;
         for number in left.by_ref() {
-            let before = 1 + usize::from(number.is_sign_negative());
-            if let Some(head) = room.first_chunk_mut::<2>() {
-                *head = *b",-";
-            }
-            let to = room.get_mut(before..).and_then(|to| to.first_chunk_mut());
-            let Some(length) = to.and_then(|to| digits::write_positive(number.abs(), to)) else {
+            let to = room.get_mut(written..).and_then(|to| to.first_chunk_mut());
+            let Some(length) = to.and_then(|to| digits::write_cell(*number, to)) else {
                 self.filled = start + written;
                 self.put_unusual(*number);
                 return self.put_numbers(left.as_slice());
             };
-            room = room.get_mut(before + length..).unwrap_or_default();
-            written += before + length;
+            written += length;
         }
         self.filled = start + written;
     }
 
-    /// Zero, and what needs an exponent: as many digits as single precision needs, or double precision beyond its range.
+    /// What needs an exponent, or is infinite: as many digits as single precision needs, or double precision beyond its range.
     #[inline(never)]
     #[expect(clippy::cast_possible_truncation, reason = "numbers that it cannot hold are not written so")]
     fn put_unusual(&mut self, number: f64) {
         let mut buffer = zmij::Buffer::new();
         let single = number as f32;
-        let text = if number == 0.0 {
-            if number.is_sign_negative() { "-0.0" } else { "0.0" }
-        } else if single.is_normal() {
+        let text = if single.is_normal() {
             buffer.format_finite(single)
         } else if number.is_finite() {
             buffer.format_finite(number)

@@ -5,7 +5,10 @@ use core::ops::Range;
 /// What is written without an exponent.
 const RANGE: Range<f64> = 1e-7..9_999_999.95;
 /// Bytes that are written, of which the first are the text.
-pub(super) const ROOM: usize = 24;
+pub(super) const ROOM: usize = 32;
+/// 2⁵²: a smaller number that is added to it is rounded to a whole one, which its fraction then holds.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+const FRACTION: u64 = (1 << 52) - 1;
 /// Below 2⁵², where half a unit can be added \[ns\].
 const LONGEST: f64 = 4.5e15;
 const ZEROS: u64 = u64::from_le_bytes([b'0'; 8]);
@@ -59,47 +62,50 @@ impl Decade {
     ];
 }
 
-/// Writes a number from 10⁻⁷ to below 10⁷, rounded to eight significant digits of which trailing zeros are left out, but
-/// for one behind the point, and says how many bytes its text has; `None` for what is beyond, and for NaN. Half a unit of
-/// the last digit is 5·10⁻⁸ of the number at most: no force sensor comes near.
+/// Writes a comma and a number of which the size is zero or from 10⁻⁷ to below 10⁷, rounded to eight significant digits
+/// whose trailing zeros are left out, but for one behind the point; of NaN the comma alone. Says how many bytes the text
+/// has; `None` for what is beyond. Half a unit of the last digit is 5·10⁻⁸ of the number at most: no force sensor comes
+/// near.
 ///
 /// Pieces of fixed length are stored over each other: to put text together from pieces of any length takes longer than to
 /// find its digits.
 #[inline]
-pub(super) fn write_positive(number: f64, to: &mut [u8; ROOM]) -> Option<usize> {
-    if !RANGE.contains(&number) {
-        return None;
+pub(super) fn write_cell(number: f64, to: &mut [u8; ROOM]) -> Option<usize> {
+    let (magnitude, before) = (number.abs(), 1 + usize::from(number.is_sign_negative()));
+    *to.first_chunk_mut()? = *b",-";
+    let to = to.get_mut(before..)?;
+    if !RANGE.contains(&magnitude) {
+        if number.is_nan() {
+            return Some(1);
+        }
+        *to.first_chunk_mut()? = *b"0.0";
+        return (number == 0.0).then_some(before + 3);
     }
     // 0.301 of the binary exponent is the decimal one or one too low.
-    let binary = i64::from((number.to_bits() >> 52) as u16) - 1023;
+    let binary = i32::from((magnitude.to_bits() >> 52) as u16) - 1023;
     let next = usize::try_from(((binary * 78_913) >> 18) + 9).ok()?;
-    let place = next - usize::from(number < Decade::ALL.get(next)?.begin);
+    let place = next - usize::from(magnitude < Decade::ALL.get(next)?.begin);
     let mut decade = Decade::ALL.get(place)?;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "below 2³²; half is added to round"
-    )]
-    let mut whole = (number * decade.scale + 0.5) as i64 as u64;
+    let mut whole = (magnitude * decade.scale + WHOLE).to_bits() & FRACTION;
     // Rounded up to the next decade.
     if whole >= 100_000_000 {
         (whole, decade) = (10_000_000, Decade::ALL.get(place + 1)?);
     }
     let digits = digits(whole);
-    let significant = (u64::BITS + 7 - digits.leading_zeros()) / 8;
+    let zeros = digits.swap_bytes().trailing_zeros() / 8;
     let digits = digits | ZEROS;
     let [start, point, behind] =
-        [decade.start, decade.point, decade.behind].map(|place| usize::from(place) % (ROOM - 8));
+        [decade.start, decade.point, decade.behind].map(|place| usize::from(place) % 16);
     *to.first_chunk_mut()? = *b"0.000000";
     *to.get_mut(start..)?.first_chunk_mut()? = digits.to_le_bytes();
     *to.get_mut(behind..)?.first_chunk_mut()? = (digits >> (decade.whole_bits % 64)).to_le_bytes();
     *to.get_mut(point)? = b'.';
-    let length = start + significant as usize + usize::from(start == 0);
+    let length = start + 8 - zeros as usize + usize::from(start == 0);
     if length < point + 2 {
         *to.get_mut(point + 1)? = b'0';
-        return Some(point + 2);
+        return Some(before + point + 2);
     }
-    Some(length)
+    Some(before + length)
 }
 
 /// Writes a time \[s\] from 0 to 4.5·10⁶ s, rounded to nanoseconds of which trailing zeros are left out, but for one behind
@@ -126,7 +132,7 @@ pub(super) fn write_time(time: f64, to: &mut [u8; ROOM]) -> Option<usize> {
     let point = 8 - zeros as usize;
     let (first, last) = (behind / 10, behind % 10);
     let first = digits(first);
-    let places = if last > 0 { 9 } else { ((u64::BITS + 7 - first.leading_zeros()) / 8).max(1) as usize };
+    let places = if last > 0 { 9 } else { (8 - first.swap_bytes().trailing_zeros() / 8).max(1) as usize };
     let to = to.get_mut(point..)?.first_chunk_mut::<10>()?;
     let [dot, decimals @ .., ninth] = to;
     (*dot, *ninth) = (b'.', b'0' + last as u8);
@@ -150,12 +156,13 @@ const fn digits(number: u64) -> u64 {
 mod tests {
     use rand::{RngExt, SeedableRng};
 
-    use super::{ROOM, digits, write_positive, write_time};
+    use super::{ROOM, digits, write_cell, write_time};
 
     fn text(number: f64) -> Option<String> {
         let mut bytes = [0; ROOM];
-        let length = write_positive(number, &mut bytes)?;
-        Some(String::from_utf8(bytes[..length].to_vec()).unwrap())
+        let length = write_cell(number, &mut bytes)?;
+        let text = core::str::from_utf8(&bytes[..length]).unwrap();
+        Some(text.strip_prefix(',').unwrap().to_owned())
     }
 
     #[test]
@@ -233,8 +240,13 @@ mod tests {
         ] {
             assert_eq!(text(number).as_deref(), Some(expected));
         }
-        let beyond = [0.0, 5e-324, 9.9e-8, 1e7, 9_999_999.96, 1e308, f64::INFINITY, f64::NAN, -1.0];
-        for number in beyond {
+        for (number, expected) in
+            [(0.0, "0.0"), (-0.0, "-0.0"), (f64::NAN, ""), (-f64::NAN, ""), (-1.5e-3, "-0.0015")]
+        {
+            assert_eq!(text(number).as_deref(), Some(expected));
+        }
+        let beyond = [5e-324, 9.9e-8, 1e7, 9_999_999.96, 1e308, f64::INFINITY];
+        for number in beyond.into_iter().flat_map(|number| [number, -number]) {
             assert_eq!(text(number), None, "{number}");
         }
     }

@@ -96,7 +96,7 @@ impl Recorded {
             span: Span { start: self.start, end: self.end },
             output: PathBuf::new(),
             report: PathBuf::new(),
-            no_report: true,
+            no_report: false,
             json: false,
             overwrite: Overwrite::default(),
         }

@@ -104,7 +104,9 @@ fn analysed<S: Sink>(
     let array = scene.array_places().map(|places| Array::new(places, &mut reader)).transpose()?;
     let mut sink = sink()?;
     let window = Window::new(arguments.span);
-    let pass = Pass { scene, reader: &mut reader, source: &mut source, array, window, sink: &mut sink };
+    let is_drawn = !arguments.no_report;
+    let pass =
+        Pass { scene, reader: &mut reader, source: &mut source, array, window, is_drawn, sink: &mut sink };
     let observations = pass.run()?;
     bar.finish_and_clear();
     let quality = *reader.quality();
@@ -143,20 +145,22 @@ struct Pass<'a, S> {
     source: &'a mut Source,
     array: Option<Array>,
     window: Window,
+    /// Whether a report is made of it.
+    is_drawn: bool,
     sink: &'a mut S,
 }
 
 impl<S: Sink> Pass<'_, S> {
     fn run(self) -> Result<Observations, CliError> {
         let mut pipeline = self.scene.pipeline();
-        let mut observations = Observations::new(*self.scene.projection());
+        let mut observations = Observations::of(*self.scene.projection(), self.is_drawn);
         let (sensor, calibrated) = (self.source.sensor(), self.source.is_calibrated());
         // The health of the sensor, as far as that costs little.
         let watched = WatchedRows::brief(self.reader.layout(), sensor, calibrated);
         let mut watched =
             watched.map_err(|problem| CliError::Recording(self.reader.header_error(problem)))?;
         watched.limit(sensor, self.scene.calibration().and_then(|file| file.range));
-        let Self { scene, reader, source, mut array, mut window, sink } = self;
+        let Self { scene, reader, source, mut array, mut window, sink, .. } = self;
         let mut fused = Fused::default();
         let health = ahead::read(reader, watched, |block| {
             for row in block.rows() {

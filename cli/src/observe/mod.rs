@@ -45,6 +45,8 @@ pub(crate) struct MapPoint {
 #[derive(Clone, Debug)]
 pub(crate) struct Observations {
     projection: Projection,
+    /// Whether the curves and the map are kept, which only a report shows.
+    is_drawn: bool,
     counts: [u64; Status::ALL.len()],
     rows: u64,
     first_time: Option<f64>,
@@ -72,9 +74,16 @@ pub(crate) struct Observations {
 }
 
 impl Observations {
+    /// All that is kept of a run.
     pub(crate) fn new(projection: Projection) -> Self {
+        Self::of(projection, true)
+    }
+
+    /// Without what only a report shows, unless it is drawn.
+    pub(crate) fn of(projection: Projection, is_drawn: bool) -> Self {
         Self {
             projection,
+            is_drawn,
             counts: [0; Status::ALL.len()],
             rows: 0,
             first_time: None,
@@ -97,24 +106,23 @@ impl Observations {
     #[inline]
     pub(crate) fn add(&mut self, time: f64, touch: &SceneTouch) {
         self.count(time, Status::of(&touch.resolution));
-        let ([fx, fy, fz], [tx, ty, tz]) = (touch.wrench.force().into(), touch.wrench.torque().into());
-        self.load.add(time, &[fx, fy, fz, tx, ty, tz]);
         self.force.add(touch.wrench.force().norm());
-        let mut traced = NOTHING;
         let split = touch.resolution.contact().zip(touch.force).map(|(contact, force)| {
-            self.map.add(|| MapPoint {
-                place: self.projection.project(&contact.point),
-                point: contact.point,
-                normal_force: force.normal,
-            });
-            let split = (force.normal, force.tangential_magnitude(), force.friction_ratio());
-            let [x, y, z] = contact.point.into();
-            traced = [split.0, split.1, split.2.unwrap_or(f64::NAN), contact.spin_torque, x, y, z];
-            split
+            (contact, force.normal, force.tangential_magnitude(), force.friction_ratio())
         });
-        self.contacts.add(time, &traced);
+        if self.is_drawn {
+            let mut traced = NOTHING;
+            if let Some((contact, normal_force, tangential, ratio)) = split {
+                let point = contact.point;
+                self.map.add(|| MapPoint { place: self.projection.project(&point), point, normal_force });
+                let ratio = ratio.unwrap_or(f64::NAN);
+                traced = [normal_force, tangential, ratio, contact.spin_torque, point.x, point.y, point.z];
+            }
+            self.load.add(time, &touch.wrench.components().into());
+            self.contacts.add(time, &traced);
+        }
         let ratio = split.and_then(|(.., ratio)| ratio);
-        if let Some((normal, tangential, _)) = split {
+        if let Some((_, normal, tangential, _)) = split {
             self.normal.add(normal);
             self.tangential.add(tangential);
         }
@@ -127,14 +135,16 @@ impl Observations {
         if touch.grip.flatten().is_some_and(|margin| margin.newtons < 0.0) {
             self.beyond_limit += 1;
         }
-        self.slips.follow(time, touch.slip, split.map(|(normal, ..)| normal), ratio);
+        self.slips.follow(time, touch.slip, split.map(|(_, normal, ..)| normal), ratio);
     }
 
     /// Takes a sample that gave no wrench, or one that is not analysed. Curves break here.
     pub(crate) fn add_without_wrench(&mut self, time: f64, status: Status) {
         self.count(time, status);
-        self.load.add(time, &[f64::NAN; 6]);
-        self.contacts.add(time, &NOTHING);
+        if self.is_drawn {
+            self.load.add(time, &[f64::NAN; 6]);
+            self.contacts.add(time, &NOTHING);
+        }
     }
 
     /// Force components on the fingertip \[N\].
