@@ -10,8 +10,8 @@ use fingertip::contact::PointContact;
 use fingertip::surfaces::Sphere;
 use fingertip::wrench::{DummyGaugeAccumulator, GaussianElimination};
 use fingertip_calibration::design::{
-    Assessment, ContactWeight, Criterion, Excitation, LayoutFile, LoadedTube, Material, MatrixUsed,
-    NominalLoads, Placement, Search, Touch, Trial, TubeSpace, Wall, search,
+    Assessment, ContactWeight, Criterion, DesignTouch, Excitation, LayoutFile, LoadedTube, Material,
+    MatrixUsed, NominalLoads, Placement, Search, Trial, TubeSpace, Wall, search,
 };
 use fingertip_simulation::{
     Design, Options, SessionReport, SessionScore, SimulatedFingertip, standard_session,
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let loads = NominalLoads::equal(30.0, 0.3)?;
     let tube = LoadedTube { material: Material::ALUMINIUM_7075_T6, radius: 7e-3, length: 20e-3, loads };
     let (tip_radius, wall) = (13e-3, 0.2e-3);
-    let touches = Touch::on_sphere(tip_radius, 90_f64.to_radians(), 0.5, 3.0)?;
+    let touches = DesignTouch::on_sphere(tip_radius, 90_f64.to_radians(), 0.5, 3.0)?;
     let weight = ContactWeight::over(touches.iter().copied())?.normalised(&loads.components());
 
     // 2. The family: three pairs of gauges at ±Q around one ring; and what to make small: the error of

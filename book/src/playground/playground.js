@@ -169,7 +169,7 @@
     curve.width = wide * dense;
     curve.height = high * dense;
     ink.setTransform(dense, 0, 0, dense, 0, 0);
-    const style = getComputedStyle(curve), left = 56, foot = high - 34, top = 12, most = 20;
+    const style = getComputedStyle(curve), left = 56, foot = high - 40, top = 12, most = 20;
     const x = q => left + (wide - left - 12) * (q - 2) / 83, y = value => foot - (foot - top) * Math.log(value) / Math.log(most);
     ink.strokeStyle = ink.fillStyle = style.color;
     ink.font = "13px system-ui, sans-serif";
@@ -180,7 +180,7 @@
     });
     ink.textAlign = "center";
     [10, 20, 30, 40, 50, 60, 70, 80].forEach(q => ink.fillText(q + "°", x(q), foot + 16));
-    ink.fillText("angle Q of the gauges", (left + wide) / 2, foot + 32);
+    ink.fillText("angle Q of the gauges", (left + wide) / 2, foot + 33);
     ink.textAlign = "left";
     ink.font = "italic 13px system-ui, sans-serif"; ink.fillText("N", 2, (top + foot) / 2);
     ink.font = "10px system-ui, sans-serif"; ink.fillText("c", 12, (top + foot) / 2 + 4);

@@ -5,6 +5,7 @@
 
 mod built;
 mod failure;
+mod labels;
 mod links;
 mod pages;
 mod pictures;
@@ -54,7 +55,7 @@ enum Command {
         #[arg(default_value = "target/book")]
         folder: PathBuf,
     },
-    /// Mends the links of the book, as a preprocessor of mdBook
+    /// Mends the links of the book and names the blocks of its tutorials, as a preprocessor of mdBook
     Preprocess {
         /// What mdBook asks first: `supports RENDERER`
         question: Vec<String>,

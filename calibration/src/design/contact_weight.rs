@@ -4,7 +4,7 @@ use fingertip_surfaces::ActiveSurface;
 use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
-use super::{DesignError, Touch};
+use super::{DesignError, DesignTouch};
 
 /// How errors of the six components add up to the error of the contact point, averaged over the
 /// touches that a fingertip is made for: `E|δc|² = tr(W Σ)` with `Σ` the covariance of the wrench
@@ -39,7 +39,7 @@ impl ContactWeight {
     /// # Errors
     /// [`DesignError::WrongCount`] without touches, [`DesignError::Singular`] if a force is zero,
     /// not finite or does not press.
-    pub fn over(touches: impl IntoIterator<Item = Touch>) -> Result<Self, DesignError> {
+    pub fn over(touches: impl IntoIterator<Item = DesignTouch>) -> Result<Self, DesignError> {
         let (mut sum, mut count) = (Matrix6::zeros(), 0_u32);
         for touch in touches {
             if !(touch.force.dot(&touch.normal) < 0.0) {
@@ -67,10 +67,10 @@ impl ContactWeight {
     /// [`DesignError::OutOfRange`] for a radius or a force that is not positive, a negative ratio,
     /// or an angle not in (0, π].
     pub fn on_sphere(radius: f64, half_angle: f64, friction: f64, force: f64) -> Result<Self, DesignError> {
-        Self::over(Touch::on_sphere(radius, half_angle, friction, force)?)
+        Self::over(DesignTouch::on_sphere(radius, half_angle, friction, force)?)
     }
 
-    /// Touches all over the active part of any surface: the mean over [`Touch::on_surface`].
+    /// Touches all over the active part of any surface: the mean over [`DesignTouch::on_surface`].
     ///
     /// # Errors
     /// As there, and [`DesignError::WrongCount`] if no line meets the active surface.
@@ -81,7 +81,7 @@ impl ContactWeight {
         friction: f64,
         force: f64,
     ) -> Result<Self, DesignError> {
-        Self::over(Touch::on_surface(surface, centre, reach, friction, force)?)
+        Self::over(DesignTouch::on_surface(surface, centre, reach, friction, force)?)
     }
 
     /// The same for a wrench in nominal loads: `W` of `wrench/nominal`.
@@ -106,7 +106,7 @@ impl ContactWeight {
 
 #[cfg(test)]
 mod tests {
-    use super::{ContactWeight, Touch};
+    use super::{ContactWeight, DesignTouch};
     use crate::testing::Largest as _;
     use core::f64::consts::PI;
     use fingertip_surfaces::Sphere;
@@ -136,9 +136,9 @@ mod tests {
 
     #[test]
     fn refuses_touches_that_do_not_press() {
-        let pole = Touch { point: Vector3::x() * 0.013, normal: Vector3::x(), force: Vector3::x() };
+        let pole = DesignTouch { point: Vector3::x() * 0.013, normal: Vector3::x(), force: Vector3::x() };
         assert!(ContactWeight::over([pole]).is_err());
-        assert!(ContactWeight::over([Touch { force: Vector3::repeat(f64::NAN), ..pole }]).is_err());
+        assert!(ContactWeight::over([DesignTouch { force: Vector3::repeat(f64::NAN), ..pole }]).is_err());
         assert!(ContactWeight::over([]).is_err());
         assert!(ContactWeight::on_sphere(f64::NAN, 1.0, 0.5, 1.0).is_err());
         assert!(ContactWeight::on_sphere(0.013, 4.0, 0.5, 1.0).is_err());

@@ -72,7 +72,7 @@ pub use space::{DesignSpace, Parameter, ParameterUnit};
 pub use stewart::{Stewart, StewartSpace, StewartStrength};
 pub use strain_field::{GaugeAngle, LinearStructure, StrainSite, choose_sites};
 pub use tolerance::{Placement, Spread, ToleranceReport, Touches, tolerance};
-pub use touch::{Touch, TouchSet};
+pub use touch::{DesignTouch, TouchSet};
 pub use trial::{Accuracy, MatrixUsed, Trial};
 pub use tube_layout::{TubeLayout, TubeTheory};
 pub use tube_space::{Coordinate, GaugeRule, TubeSpace, Wall};

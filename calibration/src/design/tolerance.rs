@@ -6,7 +6,7 @@ use rand::SeedableRng as _;
 use rand_distr::{Distribution as _, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::{Assessment, ContactWeight, DesignError, NominalLoads, Touch, TubeLayout, TubeTheory};
+use super::{Assessment, ContactWeight, DesignError, DesignTouch, NominalLoads, TubeLayout, TubeTheory};
 
 /// How well gauges can be placed: the standard deviations of normally distributed errors.
 ///
@@ -110,11 +110,11 @@ impl Spread {
 /// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
 /// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
 /// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
-/// use fingertip_calibration::design::{Placement, ToleranceReport, Touch, Touches, tolerance};
+/// use fingertip_calibration::design::{Placement, ToleranceReport, DesignTouch, Touches, tolerance};
 ///
 /// // Gauges glued to half a degree and 0.05 mm; touches of 5 N on a half sphere of 13 mm, with friction up to 0.5.
 /// let placement = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
-/// let touches = Touches::new(&Touch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?)?;
+/// let touches = Touches::new(&DesignTouch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?)?;
 /// let report: ToleranceReport = tolerance(&layout, &loads, placement, Some(&touches), 100, 1)?;
 /// // As drawn the matrix of the design is exact; as made, contacts are off by some tenths of a millimetre.
 /// let uncalibrated = report.uncalibrated_error.ok_or("no touches")?;
@@ -191,11 +191,11 @@ pub fn tolerance(
 /// Touches, and what they add up to.
 ///
 /// ```
-/// use fingertip_calibration::design::{ContactWeight, Touch, Touches};
+/// use fingertip_calibration::design::{ContactWeight, DesignTouch, Touches};
 ///
 /// // Touches of 1 N all over a half sphere of 10 mm weigh as that half sphere does.
 /// let angle = core::f64::consts::FRAC_PI_2;
-/// let touches = Touches::new(&Touch::on_sphere(0.01, angle, 0.5, 1.0)?)?;
+/// let touches = Touches::new(&DesignTouch::on_sphere(0.01, angle, 0.5, 1.0)?)?;
 /// let weight = ContactWeight::on_sphere(0.01, angle, 0.5, 1.0)?;
 /// assert!((touches.weight().matrix() - weight.matrix()).norm() < 1e-12 * weight.matrix().norm());
 /// # Ok::<(), fingertip_calibration::design::DesignError>(())
@@ -210,9 +210,10 @@ pub struct Touches {
 impl Touches {
     /// # Errors
     /// As [`ContactWeight::over`].
-    pub fn new(touches: &[Touch]) -> Result<Self, DesignError> {
+    pub fn new(touches: &[DesignTouch]) -> Result<Self, DesignError> {
         let weight = ContactWeight::over(touches.iter().copied())?;
-        let wrench = |touch: &Touch| Wrench::<f64>::from_force_at(&touch.point, touch.force).components();
+        let wrench =
+            |touch: &DesignTouch| Wrench::<f64>::from_force_at(&touch.point, touch.force).components();
         Ok(Self { list: touches.iter().map(|touch| (wrench(touch), touch.jacobian())).collect(), weight })
     }
 

@@ -11,11 +11,11 @@ use super::DesignError;
 /// A touch: where, with which outward normal, by which force on the fingertip \[m, –, N\].
 ///
 /// ```
-/// use fingertip_calibration::design::Touch;
+/// use fingertip_calibration::design::DesignTouch;
 /// use fingertip_calibration::nalgebra::Vector3;
 ///
 /// // 2 N straight down at the top of a tip of 10 mm.
-/// let touch = Touch { point: Vector3::z() * 0.01, normal: Vector3::z(), force: Vector3::z() * -2.0 };
+/// let touch = DesignTouch { point: Vector3::z() * 0.01, normal: Vector3::z(), force: Vector3::z() * -2.0 };
 /// // A torque about y moves the contact along x, by 1/2 N.
 /// let jacobian = touch.jacobian();
 /// assert!((jacobian[(0, 4)] - 0.5).abs() < 1e-12 && jacobian.row(2).norm() < 1e-12);
@@ -23,7 +23,7 @@ use super::DesignError;
 /// assert!((jacobian[(0, 0)] + 5e-3).abs() < 1e-12);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
+pub struct DesignTouch {
     /// Contact point in the sensor frame \[m\].
     pub point: Vector3<f64>,
     /// Outward unit normal of the surface.
@@ -32,7 +32,7 @@ pub struct Touch {
     pub force: Vector3<f64>,
 }
 
-impl Touch {
+impl DesignTouch {
     /// How the contact point moves with the six components of the wrench \[m/N, m/(N·m)\].
     #[must_use]
     pub fn jacobian(&self) -> Matrix3x6<f64> {
@@ -47,7 +47,7 @@ impl Touch {
     }
 }
 
-impl Touch {
+impl DesignTouch {
     /// Touches all over a spherical tip: see [`ContactWeight::on_sphere`](super::ContactWeight::on_sphere).
     ///
     /// # Errors
@@ -160,13 +160,13 @@ fn forces(normal: Vector3<f64>, friction: f64, size: f64) -> impl Iterator<Item 
 /// # let loads = DMatrix::from_fn(120, 6, |i, j| if i % 6 == j { ((i / 6) as f64 - 9.5) * size[j] } else { 0.0 });
 /// # let signals = loads.map_with_location(|i, j, load| 0.1 * load / size[j] + 1e-3 * ((7 * i + 3 * j) as f64).sin());
 /// # let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt)?;
-/// use fingertip_calibration::design::{Touch, TouchSet};
+/// use fingertip_calibration::design::{DesignTouch, TouchSet};
 /// use fingertip_calibration::{calibrate, model::Options};
 ///
 /// // What is this calibration worth on a tip of 13 mm, touched with 5 N?
 /// let set = TouchSet {
 ///     surface: "sphere of 13 mm".into(),
-///     touches: Touch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?,
+///     touches: DesignTouch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?,
 /// };
 /// let count = set.touches.len();
 /// let report = calibrate(&table, &Options { touches: Some(set), ..Options::default() })?.report;
@@ -177,13 +177,13 @@ fn forces(normal: Vector3<f64>, friction: f64, size: f64) -> impl Iterator<Item 
 pub struct TouchSet {
     /// What the surface is, in words: "a sphere of 10 mm about the origin".
     pub surface: String,
-    /// The touches, such as [`Touch::on_sphere`] or [`Touch::on_surface`] gives.
-    pub touches: Vec<Touch>,
+    /// The touches, such as [`DesignTouch::on_sphere`] or [`DesignTouch::on_surface`] gives.
+    pub touches: Vec<DesignTouch>,
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Touch;
+    use super::DesignTouch;
     use fingertip_contact::{ContactModel, PointContact};
     use fingertip_surfaces::Sphere;
     use fingertip_wrench::Wrench;
@@ -203,7 +203,7 @@ mod tests {
             let radius = 13e-3;
             let force = (Vector3::from(sideways) - normal) * 2.0;
             prop_assume!(force.dot(&normal) < -0.8);
-            let touch = Touch { point: normal * radius, normal, force };
+            let touch = DesignTouch { point: normal * radius, normal, force };
             let sphere = Sphere::centred(radius).unwrap();
             let model = PointContact::new(0.0).unwrap();
             let wrench: Wrench<f64> = Wrench::from_force_at(&touch.point, force);

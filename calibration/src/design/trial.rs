@@ -8,7 +8,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_distr::{Distribution as _, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-use super::{DesignError, NominalLoads, Placement, Touch, TubeLayout, TubeTheory};
+use super::{DesignError, DesignTouch, NominalLoads, Placement, TubeLayout, TubeTheory};
 use crate::linear::{Triangular, pseudo_inverse};
 
 /// Which matrix turns the sensor's signals into wrenches.
@@ -21,9 +21,9 @@ use crate::linear::{Triangular, pseudo_inverse};
 /// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
 /// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
 /// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
-/// # use fingertip_calibration::design::{Placement, Touch, Trial};
+/// # use fingertip_calibration::design::{Placement, DesignTouch, Trial};
 /// # let sphere = fingertip_surfaces::Sphere::centred(0.013).expect("a radius");
-/// # let touches = Touch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
+/// # let touches = DesignTouch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
 /// # let trial = |matrix: MatrixUsed| {
 /// #     let placement = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
 /// #     let trial = Trial { loads, placement, noise: 1e-9, resolution: 0.0, matrix, sensors: 10, seed: 1 };
@@ -61,7 +61,7 @@ pub enum MatrixUsed {
 /// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
 /// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
 /// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
-/// use fingertip_calibration::design::{MatrixUsed, Placement, Touch, Trial};
+/// use fingertip_calibration::design::{MatrixUsed, Placement, DesignTouch, Trial};
 /// use fingertip_surfaces::Sphere;
 ///
 /// // Ten sensors, glued to half a degree and 0.05 mm, calibrated; noise of a hundredth of a millionth of strain.
@@ -75,7 +75,7 @@ pub enum MatrixUsed {
 ///     seed: 1,
 /// };
 /// // A tip of 13 mm, touched with 5 N at friction ratios up to 0.3.
-/// let touches = Touch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
+/// let touches = DesignTouch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
 /// let accuracy = trial.run(&layout, &Sphere::centred(0.013)?, &touches)?;
 /// assert!(accuracy.position_rms < 1e-3 && accuracy.missed < 0.01);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
@@ -108,9 +108,9 @@ pub struct Trial {
 /// # let angles = (1_f64.to_radians(), 59_f64.to_radians());
 /// # let space = TubeSpace::bicchi_dario((2e-3, 15e-3), angles, (2e-3, 40e-3), tube, Wall::Fixed(0.2e-3))?;
 /// # let layout = space.layout(&[6.55e-3, 14.45_f64.to_radians(), 13.46e-3])?;
-/// # use fingertip_calibration::design::{Placement, Touch, Trial};
+/// # use fingertip_calibration::design::{Placement, DesignTouch, Trial};
 /// # let sphere = fingertip_surfaces::Sphere::centred(0.013).expect("a radius");
-/// # let touches = Touch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
+/// # let touches = DesignTouch::on_sphere(0.013, 1.0, 0.3, 5.0)?;
 /// # let trial = |matrix: MatrixUsed| {
 /// #     let placement = Placement { angle: 0.5_f64.to_radians(), position: 0.05e-3 };
 /// #     let trial = Trial { loads, placement, noise: 1e-9, resolution: 0.0, matrix, sensors: 10, seed: 1 };
@@ -163,7 +163,7 @@ impl Trial {
         &self,
         layout: &TubeLayout,
         surface: &S,
-        touches: &[Touch],
+        touches: &[DesignTouch],
     ) -> Result<Accuracy, DesignError> {
         self.validate()?;
         let model =

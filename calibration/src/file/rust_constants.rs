@@ -5,12 +5,17 @@ use core::fmt::Write as _;
 use super::{CalibrationFile, FileError, Temperature, Verdict};
 use crate::Axis;
 
+/// The crates that a module names.
+const IMPORTS: &str = "// A program that has `fingertip-wrench` and `nalgebra` instead of `fingertip` leaves this line out.\n\
+                       use fingertip::{nalgebra, wrench as fingertip_wrench};";
+
 impl CalibrationFile {
     /// A Rust module with the calibration as `const` arrays of `f32` or `f64` and a function that
     /// makes the [`SensorMatrix`](fingertip_wrench::SensorMatrix) of them, or the
     /// [`CurvedInverse`](fingertip_wrench::CurvedInverse) of a curved sensor; with temperature terms also a
-    /// [`TemperatureCompensation`](fingertip_wrench::TemperatureCompensation). It needs only
-    /// `fingertip_wrench` and `nalgebra`, neither heap nor `std`.
+    /// [`TemperatureCompensation`](fingertip_wrench::TemperatureCompensation). It needs the crate
+    /// `fingertip` alone, neither heap nor `std`; a comment says which line a program leaves out that has
+    /// `fingertip-wrench` and `nalgebra` instead.
     ///
     /// Numbers are written with as many digits as it takes to give the nearest number of the type.
     ///
@@ -41,7 +46,7 @@ impl CalibrationFile {
         let mut text = self.origin_in_rust()?;
         let _ = writeln!(
             text,
-            "\n/// Number of gauges.\npub const GAUGES: usize = {gauges};\n\n\
+            "\n{IMPORTS}\n\n/// Number of gauges.\npub const GAUGES: usize = {gauges};\n\n\
              /// Reading of each gauge without load.\npub const ZERO: [{name}; GAUGES] = {};",
             list("zero", &mut self.zero.iter().copied())?,
         );

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, Vector3};
 use super::fitted::{check_widths, roots};
 use super::torques::{Points, settle};
 use super::touches::{directions, wrenches};
-use super::{Fitted, GeometryError, Touch, WrenchNoise};
+use super::{Fitted, GeometryError, ShapeTouch, WrenchNoise};
 use crate::fit::FitError;
 use crate::linear::{Singular, Unobserved};
 
@@ -25,7 +25,10 @@ const LEAST_SPREAD: f64 = 0.05;
 /// # Errors
 /// [`GeometryError`]; the axis is not observable where all normals are parallel, the radius not without
 /// friction.
-pub fn fit_cylinder(touches: &[Touch], noise: &WrenchNoise) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
+pub fn fit_cylinder(
+    touches: &[ShapeTouch],
+    noise: &WrenchNoise,
+) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
     let normals = directions(touches)?;
     let spread = DMatrix::from_fn(normals.len(), 3, |i, j| normals[i][j]);
     let singular = Singular::new(&spread).filter(|singular| singular.values.len() == 3);
@@ -58,7 +61,7 @@ pub fn fit_cylinder(touches: &[Touch], noise: &WrenchNoise) -> Result<Fitted<Cyl
 /// # Errors
 /// [`GeometryError`]; the radius is not observable without friction.
 pub fn fit_cylinder_along(
-    touches: &[Touch],
+    touches: &[ShapeTouch],
     axis: &Vector3<f64>,
     noise: &WrenchNoise,
 ) -> Result<Fitted<Cylinder<f64>>, GeometryError> {
@@ -106,7 +109,7 @@ pub fn fit_cylinder_along(
 mod tests {
     use super::{fit_cylinder, fit_cylinder_along};
     use crate::fit::testing::gaussian;
-    use crate::geometry::{GeometryError, Touch, WrenchNoise};
+    use crate::geometry::{GeometryError, ShapeTouch, WrenchNoise};
     use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
@@ -119,7 +122,7 @@ mod tests {
 
     /// Touches with friction on the side of a cylinder of 8 mm, and the point of its axis nearest to the
     /// origin.
-    fn touches(random: &mut Pcg64Mcg, axis: Vector3<f64>, count: usize) -> (Vec<Touch>, Vector3<f64>) {
+    fn touches(random: &mut Pcg64Mcg, axis: Vector3<f64>, count: usize) -> (Vec<ShapeTouch>, Vector3<f64>) {
         let centre = vector(random) * 0.01;
         let base = centre - axis * centre.dot(&axis);
         let touches = (0..count)
@@ -129,7 +132,7 @@ mod tests {
                 let along = axis * (0.02 * gaussian(random));
                 let slide = vector(random).cross(&radial).normalize();
                 let force = (slide * 0.3 - radial) * (1.0 + gaussian(random).abs());
-                Touch {
+                ShapeTouch {
                     wrench: Wrench::from_force_at(&(base + radial * 0.008 + along), force),
                     normal: radial * 3.0,
                 }
@@ -184,9 +187,12 @@ mod tests {
         let trials = 8000;
         let (mut found, mut stated) = (0.0, 0.0);
         for _ in 0..trials {
-            let noisy: Vec<Touch> = clean
+            let noisy: Vec<ShapeTouch> = clean
                 .iter()
-                .map(|touch| Touch { normal: touch.normal.normalize() + vector(random) * 0.01, ..*touch })
+                .map(|touch| ShapeTouch {
+                    normal: touch.normal.normalize() + vector(random) * 0.01,
+                    ..*touch
+                })
                 .collect();
             let fitted = fit_cylinder(&noisy, &WrenchNoise::exact_forces()).unwrap();
             found += fitted.shape.axis().cross(&Vector3::z()).norm_squared() / f64::from(trials);

@@ -7,23 +7,23 @@ use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 use super::fitted::{check_widths, roots};
 use super::torques::{Points, Step, settle};
 use super::touches::{directions, radius_and_centre, shifts, wrenches};
-use super::{Fitted, GeometryError, Touch, WrenchNoise};
+use super::{Fitted, GeometryError, ShapeTouch, WrenchNoise};
 
 /// The semi-axes and centre of an ellipsoid whose axes are those of the sensor frame.
 ///
 /// ```
-/// # use fingertip_calibration::geometry::Touch;
+/// # use fingertip_calibration::geometry::ShapeTouch;
 /// # use fingertip_calibration::nalgebra::Vector3;
 /// # use fingertip_wrench::Wrench;
 /// # // 2 N inward and 0.5 N aside, at forty places of an ellipsoid.
-/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<Touch> {
+/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<ShapeTouch> {
 /// #     let touch = |k: i32| {
 /// #         let (around, up) = (2.4 * f64::from(k), f64::from(k - 15) / 25.0);
 /// #         let normal = Vector3::new(around.cos(), around.sin(), up).normalize();
 /// #         let squared = semi_axes.component_mul(&semi_axes).component_mul(&normal);
 /// #         let point = centre + squared / squared.dot(&normal).sqrt();
 /// #         let aside = normal.cross(&Vector3::new(0.3, f64::from(k).sin(), 0.8)).normalize() * 0.5;
-/// #         Touch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
+/// #         ShapeTouch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
 /// #     };
 /// #     (0..40).map(touch).collect()
 /// # };
@@ -51,7 +51,7 @@ pub struct EllipsoidParameters {
 /// # Errors
 /// [`GeometryError`].
 pub fn fit_aligned_ellipsoid(
-    touches: &[Touch],
+    touches: &[ShapeTouch],
     noise: &WrenchNoise,
 ) -> Result<Fitted<EllipsoidParameters>, GeometryError> {
     let normals = directions(touches)?;
@@ -101,18 +101,18 @@ fn positive(radius: f64) -> Result<f64, GeometryError> {
 /// An ellipsoid anywhere in the sensor frame.
 ///
 /// ```
-/// # use fingertip_calibration::geometry::Touch;
+/// # use fingertip_calibration::geometry::ShapeTouch;
 /// # use fingertip_calibration::nalgebra::Vector3;
 /// # use fingertip_wrench::Wrench;
 /// # // 2 N inward and 0.5 N aside, at forty places of an ellipsoid.
-/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<Touch> {
+/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<ShapeTouch> {
 /// #     let touch = |k: i32| {
 /// #         let (around, up) = (2.4 * f64::from(k), f64::from(k - 15) / 25.0);
 /// #         let normal = Vector3::new(around.cos(), around.sin(), up).normalize();
 /// #         let squared = semi_axes.component_mul(&semi_axes).component_mul(&normal);
 /// #         let point = centre + squared / squared.dot(&normal).sqrt();
 /// #         let aside = normal.cross(&Vector3::new(0.3, f64::from(k).sin(), 0.8)).normalize() * 0.5;
-/// #         Touch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
+/// #         ShapeTouch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
 /// #     };
 /// #     (0..40).map(touch).collect()
 /// # };
@@ -168,7 +168,7 @@ fn symmetric(k: usize) -> Matrix3<f64> {
 /// # Errors
 /// [`GeometryError`]; without friction, sizes cannot be observed. Five generic touches are the least.
 pub fn fit_ellipsoid(
-    touches: &[Touch],
+    touches: &[ShapeTouch],
     noise: &WrenchNoise,
 ) -> Result<Fitted<PosedEllipsoid>, GeometryError> {
     let normals = directions(touches)?;

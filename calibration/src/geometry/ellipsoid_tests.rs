@@ -1,6 +1,6 @@
 use super::{fit_aligned_ellipsoid, fit_ellipsoid};
 use crate::fit::testing::gaussian;
-use crate::geometry::{GeometryError, Touch, WrenchNoise};
+use crate::geometry::{GeometryError, ShapeTouch, WrenchNoise};
 use crate::testing::Largest as _;
 use fingertip_surfaces::ActiveSurface as _;
 use fingertip_wrench::Wrench;
@@ -19,7 +19,7 @@ fn touches(
     turn: &Rotation3<f64>,
     centre: Vector3<f64>,
     count: usize,
-) -> Vec<Touch> {
+) -> Vec<ShapeTouch> {
     let squares = Matrix3::from_diagonal(&semi_axes.component_mul(&semi_axes));
     let shape = turn * squares * turn.inverse();
     (0..count)
@@ -28,7 +28,7 @@ fn touches(
             let point = centre + shape * n / n.dot(&(shape * n)).sqrt();
             let slide = vector(random).cross(&n).normalize();
             let force = (slide * 0.4 - n) * (1.0 + gaussian(random).abs());
-            Touch { wrench: Wrench::from_force_at(&point, force), normal: n * 3.0 }
+            ShapeTouch { wrench: Wrench::from_force_at(&point, force), normal: n * 3.0 }
         })
         .collect()
 }
@@ -72,9 +72,9 @@ fn what_a_spheroid_hides_is_said() {
     let random = &mut Pcg64Mcg::seed_from_u64(23);
     let turn = Rotation3::from_scaled_axis(vector(random));
     let touches = touches(random, Vector3::new(0.02, 0.01, 0.01), &turn, Vector3::zeros(), 30);
-    let noisy: Vec<Touch> = touches
+    let noisy: Vec<ShapeTouch> = touches
         .iter()
-        .map(|touch| Touch {
+        .map(|touch| ShapeTouch {
             wrench: Wrench::on_fingertip(touch.wrench.force(), touch.wrench.torque() + vector(random) * 1e-5),
             ..*touch
         })
@@ -97,9 +97,9 @@ fn deviations_are_those_of_many_trials() {
     let trials = 4000;
     let (mut found, mut stated) = ([0.0; 9], [0.0; 9]);
     for _ in 0..trials {
-        let noisy: Vec<Touch> = clean
+        let noisy: Vec<ShapeTouch> = clean
             .iter()
-            .map(|t| Touch {
+            .map(|t| ShapeTouch {
                 wrench: Wrench::on_fingertip(t.wrench.force(), t.wrench.torque() + vector(random) * 1e-5),
                 ..*t
             })

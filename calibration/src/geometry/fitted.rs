@@ -9,18 +9,18 @@ use crate::fit::student_factor;
 /// A fitted shape, and how sure it is.
 ///
 /// ```
-/// # use fingertip_calibration::geometry::Touch;
+/// # use fingertip_calibration::geometry::ShapeTouch;
 /// # use fingertip_calibration::nalgebra::Vector3;
 /// # use fingertip_wrench::Wrench;
 /// # // 2 N inward and 0.5 N aside, at forty places of an ellipsoid.
-/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<Touch> {
+/// # let touched = |semi_axes: Vector3<f64>, centre: Vector3<f64>| -> Vec<ShapeTouch> {
 /// #     let touch = |k: i32| {
 /// #         let (around, up) = (2.4 * f64::from(k), f64::from(k - 15) / 25.0);
 /// #         let normal = Vector3::new(around.cos(), around.sin(), up).normalize();
 /// #         let squared = semi_axes.component_mul(&semi_axes).component_mul(&normal);
 /// #         let point = centre + squared / squared.dot(&normal).sqrt();
 /// #         let aside = normal.cross(&Vector3::new(0.3, f64::from(k).sin(), 0.8)).normalize() * 0.5;
-/// #         Touch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
+/// #         ShapeTouch { wrench: Wrench::from_force_at(&point, aside - normal * 2.0), normal }
 /// #     };
 /// #     (0..40).map(touch).collect()
 /// # };

@@ -17,4 +17,4 @@ pub use fitted::Fitted;
 pub use noise::WrenchNoise;
 pub use pivots::{PlaneParameters, fit_meeting_point, fit_plane};
 pub use pose::fit_pose;
-pub use touches::{Touch, fit_sphere, least_radius};
+pub use touches::{ShapeTouch, fit_sphere, least_radius};

@@ -12,7 +12,7 @@ use super::{Fitted, GeometryError, WrenchNoise};
 /// the sensor frame (known from how the fingertip was pressed on a plane, say).
 ///
 /// ```
-/// use fingertip_calibration::geometry::{Touch, WrenchNoise, fit_sphere};
+/// use fingertip_calibration::geometry::{ShapeTouch, WrenchNoise, fit_sphere};
 /// use fingertip_calibration::nalgebra::Vector3;
 /// use fingertip_wrench::Wrench;
 ///
@@ -20,21 +20,21 @@ use super::{Fitted, GeometryError, WrenchNoise};
 /// let normals = [Vector3::x(), Vector3::y(), Vector3::z(), -Vector3::x(), -Vector3::y()];
 /// let touches = normals.map(|normal| {
 ///     let aside = normal.yzx() * 0.5;
-///     Touch { wrench: Wrench::from_force_at(&(normal * 0.012), aside - normal * 2.0), normal }
+///     ShapeTouch { wrench: Wrench::from_force_at(&(normal * 0.012), aside - normal * 2.0), normal }
 /// });
 /// let sphere = fit_sphere(&touches, &WrenchNoise::exact_forces())?.shape;
 /// assert!((sphere.radius() - 0.012).abs() < 1e-9);
 /// # Ok::<(), fingertip_calibration::geometry::GeometryError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
+pub struct ShapeTouch {
     /// Load on the fingertip.
     pub wrench: Wrench<f64>,
     /// Outward normal at the touched point; any length. It is taken as exact.
     pub normal: Vector3<f64>,
 }
 
-pub(super) fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, GeometryError> {
+pub(super) fn directions(touches: &[ShapeTouch]) -> Result<Vec<Vector3<f64>>, GeometryError> {
     touches
         .iter()
         .enumerate()
@@ -52,7 +52,7 @@ pub(super) fn directions(touches: &[Touch]) -> Result<Vec<Vector3<f64>>, Geometr
         .collect()
 }
 
-pub(super) fn wrenches(touches: &[Touch]) -> Vec<Wrench<f64>> {
+pub(super) fn wrenches(touches: &[ShapeTouch]) -> Vec<Wrench<f64>> {
     touches.iter().map(|touch| touch.wrench).collect()
 }
 
@@ -93,7 +93,7 @@ const SPHERE: [&str; 4] = ["radius", "centre x", "centre y", "centre z"];
 ///
 /// # Errors
 /// [`GeometryError`]; [`GeometryError::Undetermined`] also where an interval of 95 % is wider than the radius.
-pub fn fit_sphere(touches: &[Touch], noise: &WrenchNoise) -> Result<Fitted<Sphere<f64>>, GeometryError> {
+pub fn fit_sphere(touches: &[ShapeTouch], noise: &WrenchNoise) -> Result<Fitted<Sphere<f64>>, GeometryError> {
     let normals = directions(touches)?;
     let (radius, centre, step) = radius_and_centre(&wrenches(touches), &normals, noise)?;
     let deviations = roots(&step.covariance(step.variance(), &SPHERE)?);
@@ -127,7 +127,7 @@ mod tests {
     use super::{fit_sphere, least_radius};
     use crate::fit::FitError;
     use crate::fit::testing::gaussian;
-    use crate::geometry::{GeometryError, Touch, WrenchNoise, fit_meeting_point, fit_plane};
+    use crate::geometry::{GeometryError, ShapeTouch, WrenchNoise, fit_meeting_point, fit_plane};
     use crate::testing::Largest as _;
     use fingertip_wrench::Wrench;
     use nalgebra::Vector3;
@@ -140,10 +140,10 @@ mod tests {
     }
 
     /// Pressing with friction at a point.
-    fn touch(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>, friction: f64) -> Touch {
+    fn touch(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>, friction: f64) -> ShapeTouch {
         let slide = vector(random).cross(&normal).normalize();
         let force = (slide * friction - normal) * (1.0 + gaussian(random).abs());
-        Touch { wrench: Wrench::from_force_at(&point, force), normal: normal * 3.0 }
+        ShapeTouch { wrench: Wrench::from_force_at(&point, force), normal: normal * 3.0 }
     }
 
     proptest! {
@@ -188,7 +188,7 @@ mod tests {
         let frictionless: Vec<_> = (0..20)
             .map(|_| {
                 let n = vector(random).normalize();
-                Touch { wrench: Wrench::from_force_at(&(centre + n * 0.013), -n), normal: n }
+                ShapeTouch { wrench: Wrench::from_force_at(&(centre + n * 0.013), -n), normal: n }
             })
             .collect();
         let error = fit_sphere(&frictionless, &WrenchNoise::exact_forces()).unwrap_err();

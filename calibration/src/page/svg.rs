@@ -28,7 +28,7 @@ pub struct Svg {
 /// Letters of the class `tick`.
 pub const TICK_SIZE: f64 = 11.0;
 
-/// Where a text is attached.
+/// Where a text is attached, on pages and on [sheets](crate::sheet).
 ///
 /// ```
 /// use fingertip_calibration::page::{Anchor, Svg};
@@ -38,7 +38,7 @@ pub const TICK_SIZE: f64 = 11.0;
 /// let drawing = svg.finish();
 /// assert!(drawing.contains(r#"text-anchor="end""#) && drawing.contains("F &lt; 5 N"));
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     /// At its beginning.
     Start,

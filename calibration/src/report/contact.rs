@@ -24,11 +24,11 @@ use crate::linear::pseudo_inverse;
 /// # let loads = DMatrix::from_fn(120, 6, |i, j| if i % 6 == j { ((i / 6) as f64 - 9.5) * size[j] } else { 0.0 });
 /// # let signals = loads.map_with_location(|i, j, load| 0.1 * load / size[j] + 1e-3 * ((7 * i + 3 * j) as f64).sin());
 /// # let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt)?;
-/// use fingertip_calibration::design::{Touch, TouchSet};
+/// use fingertip_calibration::design::{DesignTouch, TouchSet};
 /// use fingertip_calibration::report::ContactReport;
 /// use fingertip_calibration::{calibrate, model::Options};
 ///
-/// let touches = Touch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?;
+/// let touches = DesignTouch::on_sphere(0.013, core::f64::consts::FRAC_PI_2, 0.5, 5.0)?;
 /// let options = Options {
 ///     touches: Some(TouchSet { surface: "sphere of 13 mm".into(), touches }),
 ///     ..Options::default()
@@ -108,7 +108,7 @@ pub(crate) fn contact_report(
 mod tests {
     use super::contact_report;
     use crate::Axis;
-    use crate::design::{Touch, TouchSet};
+    use crate::design::{DesignTouch, TouchSet};
     use crate::file::Covariance;
     use crate::fit::least_squares;
     use crate::fit::testing::{gaussian_matrix, sensor};
@@ -126,8 +126,8 @@ mod tests {
         let truth = sensor(&mut random, 6, 7);
         let loads = gaussian_matrix(&mut random, 12, 6) * 0.5;
         let nominal = [5.0, 5.0, 5.0, 0.05, 0.05, 0.05];
-        let touches = Touch::on_sphere(0.01, 1.2, 0.3, 5.0).unwrap();
-        let touches: Vec<Touch> = touches.into_iter().step_by(80).collect();
+        let touches = DesignTouch::on_sphere(0.01, 1.2, 0.3, 5.0).unwrap();
+        let touches: Vec<DesignTouch> = touches.into_iter().step_by(80).collect();
         let set = TouchSet { surface: "a sphere".to_owned(), touches: touches.clone() };
         let model = PointContact::new(0.1).unwrap();
         let sphere = Sphere::centred(0.01).unwrap();

@@ -24,6 +24,8 @@ pub(crate) mod tests;
 pub use pages::pdf;
 pub use table::tables;
 
+pub use crate::page::Anchor;
+
 /// How a line is drawn.
 ///
 /// ```
@@ -61,26 +63,6 @@ impl Pen {
             Self::Thick | Self::Thin => None,
         }
     }
-}
-
-/// Where a text is attached.
-///
-/// ```
-/// use fingertip_calibration::sheet::{Anchor, Sheet};
-///
-/// // A heading in the middle of a sheet that is 210 mm wide.
-/// let mut sheet = Sheet::a4("A drawing");
-/// sheet.text([105.0, 20.0], 5.0, Anchor::Middle, "Tube of 6.55 mm");
-/// assert!(sheet.to_svg().contains(r#"text-anchor="middle""#));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
-    /// It begins at its place.
-    Start,
-    /// Its middle is at its place.
-    Middle,
-    /// It ends at its place.
-    End,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! The paper's sensor against the rosette, from touch to contact point.
 
 use fingertip_calibration::design::{
-    Accuracy, Assessment, Criterion, DesignError, LoadedTube, Material, MatrixUsed, NominalLoads, Placement,
-    Search, Touch, Touches, Trial, TubeLayout, TubeSpace, Wall, search, tolerance,
+    Accuracy, Assessment, Criterion, DesignError, DesignTouch, LoadedTube, Material, MatrixUsed,
+    NominalLoads, Placement, Search, Touches, Trial, TubeLayout, TubeSpace, Wall, search, tolerance,
 };
 use fingertip_surfaces::Sphere;
 
@@ -34,8 +34,8 @@ fn paper_and_rosette() -> [TubeLayout; 2] {
     ]
 }
 
-fn touches(force: f64) -> Vec<Touch> {
-    Touch::on_sphere(13e-3, 80_f64.to_radians(), 0.4, force).unwrap()
+fn touches(force: f64) -> Vec<DesignTouch> {
+    DesignTouch::on_sphere(13e-3, 80_f64.to_radians(), 0.4, force).unwrap()
 }
 
 fn trial(placement: Placement, matrix: MatrixUsed, sensors: usize) -> Trial {

@@ -2,7 +2,7 @@
 
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
-use fingertip_calibration::design::{Touch, TouchSet};
+use fingertip_calibration::design::{DesignTouch, TouchSet};
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{Curvature, Direction, Method, Options};
@@ -244,11 +244,11 @@ fn touches_together_are_the_mean_and_the_worst_of_each() {
     let shares = DMatrix::from_fn(20, 6, |i, j| loads[(i, j)] / nominal[j]);
     let signals = shares * sensor(random, 6, 7) + gaussians(random, 20, 7) * 1e-3;
     let table = LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap();
-    let mut touches: Vec<Touch> =
-        Touch::on_sphere(0.01, 1.4, 0.5, 5.0).unwrap().into_iter().step_by(97).collect();
+    let mut touches: Vec<DesignTouch> =
+        DesignTouch::on_sphere(0.01, 1.4, 0.5, 5.0).unwrap().into_iter().step_by(97).collect();
     // One of another size, neither first nor last.
     touches[5].force *= 0.3;
-    let told = |touches: &[Touch]| {
+    let told = |touches: &[DesignTouch]| {
         let set = TouchSet { surface: "a sphere".to_owned(), touches: touches.to_vec() };
         let options = Options { touches: Some(set), nominal: Some(nominal.to_vec()), ..Options::default() };
         calibrate(&table, &options).unwrap().report.contacts.unwrap()

@@ -3,7 +3,7 @@
 use super::testing::Largest as _;
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
-use fingertip_calibration::design::{Touch, TouchSet};
+use fingertip_calibration::design::{DesignTouch, TouchSet};
 use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::loads::LoadTable;
 use fingertip_calibration::model::{CalibrationError, Curvature, Direction, Method, Options};
@@ -69,7 +69,7 @@ fn made_up_faults_are_measured() {
 /// Touches that are asked about are judged.
 #[test]
 fn touches_are_judged_where_they_are_asked_about() {
-    let touches = Touch::on_sphere(0.01, 1.2, 0.3, 5.0).unwrap();
+    let touches = DesignTouch::on_sphere(0.01, 1.2, 0.3, 5.0).unwrap();
     let set = TouchSet { surface: "a sphere".to_owned(), touches };
     assert!(calibrate(&table(), &Options::default()).unwrap().report.contacts.is_none());
     let options = Options { touches: Some(set.clone()), ..Options::default() };

@@ -1,11 +1,11 @@
 //! What fits of shapes and mountings say of the residuals they leave.
 
 use fingertip_calibration::design::{
-    LoadedTube, Material, MatrixUsed, NominalLoads, Placement, Touch as DesignTouch, Trial, TubeSpace, Wall,
+    DesignTouch, LoadedTube, Material, MatrixUsed, NominalLoads, Placement, Trial, TubeSpace, Wall,
 };
 use fingertip_calibration::geometry::{
-    Touch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder_along, fit_meeting_point, fit_pose, fit_sphere,
-    least_radius,
+    ShapeTouch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder_along, fit_meeting_point, fit_pose,
+    fit_sphere, least_radius,
 };
 use fingertip_calibration::gravity::{Pose, fit_orientation};
 use fingertip_calibration::nalgebra::{Matrix3, Vector3, Vector6};
@@ -27,17 +27,17 @@ fn agrees(what: &str, rows: f64, parameters: f64, noise: f64, mut trial: impl Fn
     assert!((mean / expected - 1.0).abs() < 0.05, "{what}: {mean:e} {expected:e}");
 }
 
-fn pressed(random: &mut Pcg64Mcg, normal: Vector3<f64>, point: Vector3<f64>) -> Touch {
+fn pressed(random: &mut Pcg64Mcg, normal: Vector3<f64>, point: Vector3<f64>) -> ShapeTouch {
     let slide = vector(random).cross(&normal).normalize();
-    Touch { wrench: Wrench::from_force_at(&point, slide * 0.4 - normal), normal }
+    ShapeTouch { wrench: Wrench::from_force_at(&point, slide * 0.4 - normal), normal }
 }
 
 fn noisy(random: &mut Pcg64Mcg, wrench: &Wrench<f64>) -> Wrench<f64> {
     Wrench::on_fingertip(wrench.force(), wrench.torque() + vector(random) * NOISE)
 }
 
-fn all_noisy(random: &mut Pcg64Mcg, touches: &[Touch]) -> Vec<Touch> {
-    touches.iter().map(|touch| Touch { wrench: noisy(random, &touch.wrench), ..*touch }).collect()
+fn all_noisy(random: &mut Pcg64Mcg, touches: &[ShapeTouch]) -> Vec<ShapeTouch> {
+    touches.iter().map(|touch| ShapeTouch { wrench: noisy(random, &touch.wrench), ..*touch }).collect()
 }
 
 #[test]

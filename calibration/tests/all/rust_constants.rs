@@ -3,9 +3,17 @@
 use fingertip_calibration::file::{CalibrationFile, FileError, Scalar, SignalUnit, Temperature, Verdict};
 use fingertip_calibration::nalgebra::DMatrix;
 
+/// What a module takes of the crate `fingertip`, which stands above this one and compiles such modules in the tests of scenes.
+mod facade {
+    pub(super) use fingertip_calibration::nalgebra;
+    pub(super) use fingertip_wrench as wrench;
+}
+
 /// What `to_rust` wrote of [`example`], compiled here.
 #[allow(unreachable_pub)]
 mod exported {
+    use super::facade as fingertip;
+
     include!("rust_constants/exported.rs");
 }
 

@@ -1,7 +1,7 @@
 //! Shapes and poses from touches: errors as stated, and the same in any units, order and frame.
 
 use fingertip_calibration::geometry::{
-    GeometryError, Touch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along,
+    GeometryError, ShapeTouch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along,
     fit_ellipsoid, fit_meeting_point, fit_plane, fit_pose, fit_sphere,
 };
 use fingertip_calibration::nalgebra::{Matrix3, Rotation3, Vector3};
@@ -16,10 +16,10 @@ use super::testing::Largest as _;
 const CENTRE: Vector3<f64> = Vector3::new(0.003, -0.002, 0.004);
 
 /// Pressing with friction at a point.
-fn pressed(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>) -> Touch {
+fn pressed(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>) -> ShapeTouch {
     let slide = vector(random).cross(&normal).normalize();
     let force = (slide * 0.4 - normal) * (1.0 + gaussian(random).abs());
-    Touch { wrench: Wrench::from_force_at(&point, force), normal }
+    ShapeTouch { wrench: Wrench::from_force_at(&point, force), normal }
 }
 
 /// Touches of a body whose point with normal n is this.
@@ -28,7 +28,7 @@ fn touches(
     count: usize,
     across: Option<Vector3<f64>>,
     point: impl Fn(&Vector3<f64>) -> Vector3<f64>,
-) -> Vec<Touch> {
+) -> Vec<ShapeTouch> {
     (0..count)
         .map(|_| {
             let n = vector(random);
@@ -43,8 +43,8 @@ fn noisy(random: &mut Pcg64Mcg, wrench: &Wrench<f64>) -> Wrench<f64> {
     Wrench::on_fingertip(wrench.force(), wrench.torque() + vector(random) * 1e-5)
 }
 
-fn all_noisy(random: &mut Pcg64Mcg, touches: &[Touch]) -> Vec<Touch> {
-    touches.iter().map(|touch| Touch { wrench: noisy(random, &touch.wrench), ..*touch }).collect()
+fn all_noisy(random: &mut Pcg64Mcg, touches: &[ShapeTouch]) -> Vec<ShapeTouch> {
+    touches.iter().map(|touch| ShapeTouch { wrench: noisy(random, &touch.wrench), ..*touch }).collect()
 }
 
 fn squares(deviations: &[f64]) -> Vec<f64> {
@@ -169,9 +169,11 @@ impl Change {
     }
 
     /// In another order too.
-    fn touches(&self, touches: &[Touch]) -> Vec<Touch> {
-        let change =
-            |touch: &Touch| Touch { wrench: self.wrench(&touch.wrench), normal: self.turn * touch.normal };
+    fn touches(&self, touches: &[ShapeTouch]) -> Vec<ShapeTouch> {
+        let change = |touch: &ShapeTouch| ShapeTouch {
+            wrench: self.wrench(&touch.wrench),
+            normal: self.turn * touch.normal,
+        };
         touches.iter().rev().map(change).collect()
     }
 
@@ -362,7 +364,7 @@ fn forces_along_the_axis_tell_nothing_of_a_cylinder() {
     let random = &mut Pcg64Mcg::seed_from_u64(69);
     let mut touches = touches(random, 12, Some(Vector3::z()), |n| CENTRE + n * 0.008);
     let without = fit_cylinder_along(&touches, &Vector3::z(), &WrenchNoise::exact_forces()).unwrap().shape;
-    touches.push(Touch {
+    touches.push(ShapeTouch {
         wrench: Wrench::from_force_at(&(CENTRE + Vector3::y() * 0.05), -Vector3::z()),
         normal: Vector3::y(),
     });

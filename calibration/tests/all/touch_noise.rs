@@ -3,7 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use fingertip_calibration::geometry::{
-    Fitted, GeometryError, Touch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder_along, fit_ellipsoid,
+    Fitted, GeometryError, ShapeTouch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder_along, fit_ellipsoid,
     fit_meeting_point, fit_plane, fit_pose, fit_sphere,
 };
 use fingertip_calibration::nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
@@ -19,9 +19,9 @@ const FORCE: f64 = 0.02;
 const TORQUE: f64 = 1e-4;
 
 /// Pressing at a point with this force along the normal, and friction.
-fn pressed(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>, newtons: f64) -> Touch {
+fn pressed(random: &mut Pcg64Mcg, point: Vector3<f64>, normal: Vector3<f64>, newtons: f64) -> ShapeTouch {
     let slide = vector(random).cross(&normal).normalize() * random.random_range(0.2..0.6);
-    Touch { wrench: Wrench::from_force_at(&point, (slide - normal) * newtons), normal }
+    ShapeTouch { wrench: Wrench::from_force_at(&point, (slide - normal) * newtons), normal }
 }
 
 /// A direction within this angle of the z axis, any as likely as any other.
@@ -47,8 +47,8 @@ fn noisy(random: &mut Pcg64Mcg, wrench: &Wrench<f64>, root: &Root) -> Wrench<f64
     Wrench::from_components(&(wrench.components() + error))
 }
 
-fn all_noisy(random: &mut Pcg64Mcg, touches: &[Touch], root: &Root) -> Vec<Touch> {
-    touches.iter().map(|touch| Touch { wrench: noisy(random, &touch.wrench, root), ..*touch }).collect()
+fn all_noisy(random: &mut Pcg64Mcg, touches: &[ShapeTouch], root: &Root) -> Vec<ShapeTouch> {
+    touches.iter().map(|touch| ShapeTouch { wrench: noisy(random, &touch.wrench, root), ..*touch }).collect()
 }
 
 fn interval<S>(fit: &Fitted<S>, errors: Vec<f64>) -> Option<(Vec<f64>, Vec<f64>)> {
@@ -74,7 +74,7 @@ fn spheres(trials: usize) {
         ("40 touches on a cap of 0.2 rad, exact forces", 40, 0.2, 5.0, independent(0.0, 1e-5)),
         ("200 touches on a half, of 0.3 N", 200, 1.57, 0.3, independent(FORCE, TORQUE)),
     ] {
-        let clean: Vec<Touch> = (0..count)
+        let clean: Vec<ShapeTouch> = (0..count)
             .map(|_| {
                 let n = within(random, angle);
                 pressed(random, CENTRE + n * radius, n, newtons)
@@ -99,7 +99,7 @@ fn others(trials: usize) {
     for (what, turn) in [("aligned", Vector3::zeros()), ("turned", Vector3::new(0.3, -0.5, 0.2))] {
         let turn = Rotation3::from_scaled_axis(turn);
         let shape = turn * Matrix3::from_diagonal(&axes.component_mul(&axes)) * turn.inverse();
-        let clean: Vec<Touch> = (0..40)
+        let clean: Vec<ShapeTouch> = (0..40)
             .map(|_| {
                 let n = within(random, PI);
                 pressed(random, CENTRE + shape * n / n.dot(&(shape * n)).sqrt(), n, 3.0)
@@ -121,7 +121,7 @@ fn others(trials: usize) {
         })
         .holds(&format!("ellipsoid, {what}"));
     }
-    let clean: Vec<Touch> = (0..20)
+    let clean: Vec<ShapeTouch> = (0..20)
         .map(|_| {
             let n = vector(random);
             let n = Vector3::new(n.x, n.y, 0.0).normalize();
@@ -203,12 +203,12 @@ fn nearly_degenerate(trials: usize) {
         (8, 0.5, [0.1, 0.1], 0.5, ""),
         (20, 0.008, [0.008, 0.0], 1.0, "directions|friction"),
     ] {
-        let clean: Vec<Touch> = (0..count)
+        let clean: Vec<ShapeTouch> = (0..count)
             .map(|i| {
                 let n = within(random, angle);
                 let slide = vector(random).cross(&n).normalize() * frictions[i % 2];
                 let force = (slide - n) * newtons;
-                Touch { wrench: Wrench::from_force_at(&(CENTRE + n * 0.013), force), normal: n }
+                ShapeTouch { wrench: Wrench::from_force_at(&(CENTRE + n * 0.013), force), normal: n }
             })
             .collect();
         let coverage =

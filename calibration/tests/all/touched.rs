@@ -2,18 +2,20 @@
 
 use core::f64::consts::PI;
 
-use fingertip_calibration::design::{LoadedTube, Material, NominalLoads, Placement, Touch, TubeSpace, Wall};
+use fingertip_calibration::design::{
+    DesignTouch, LoadedTube, Material, NominalLoads, Placement, TubeSpace, Wall,
+};
 use fingertip_calibration::nalgebra::{Vector3, Vector6};
 use fingertip_surfaces::{Plane, Sphere};
 use rand::SeedableRng as _;
 use rand_pcg::Pcg64Mcg;
 
 /// Mean of a figure over touches.
-fn mean(touches: &[Touch], figure: impl Fn(&Touch) -> f64) -> f64 {
+fn mean(touches: &[DesignTouch], figure: impl Fn(&DesignTouch) -> f64) -> f64 {
     touches.iter().map(figure).sum::<f64>() / touches.len() as f64
 }
 
-fn ratio(touch: &Touch) -> f64 {
+fn ratio(touch: &DesignTouch) -> f64 {
     let normal = -touch.force.dot(&touch.normal);
     (touch.force + touch.normal * normal).norm() / normal
 }
@@ -21,7 +23,7 @@ fn ratio(touch: &Touch) -> f64 {
 #[test]
 fn touches_of_a_tip_are_spread_evenly() {
     let half_angle = 1.1_f64;
-    let touches = Touch::on_sphere(13e-3, half_angle, 0.6, 2.5).unwrap();
+    let touches = DesignTouch::on_sphere(13e-3, half_angle, 0.6, 2.5).unwrap();
     assert_eq!(touches.len(), 1600);
     for touch in &touches {
         assert!((touch.normal.norm() - 1.0).abs() < 1e-12 && (touch.force.norm() - 2.5).abs() < 1e-12);
@@ -52,10 +54,10 @@ fn touches_of_a_tip_are_spread_evenly() {
     let sum: Vector3<f64> = sideways.sum();
     assert!(sum.norm() / 8.0 < 0.2, "{sum}");
     // Without friction there is one force, along the normal.
-    let plain = Touch::on_sphere(13e-3, half_angle, 0.0, 2.5).unwrap();
+    let plain = DesignTouch::on_sphere(13e-3, half_angle, 0.0, 2.5).unwrap();
     assert_eq!(plain.len(), 200);
     assert!(plain.iter().all(|touch| (touch.force + touch.normal * 2.5).norm() < 1e-12));
-    assert!(Touch::on_sphere(13e-3, PI, 0.6, 2.5).is_ok());
+    assert!(DesignTouch::on_sphere(13e-3, PI, 0.6, 2.5).is_ok());
     for (radius, angle, friction, force) in [
         (0.0, 1.0, 0.5, 1.0),
         (1e-3, 0.0, 0.5, 1.0),
@@ -64,7 +66,7 @@ fn touches_of_a_tip_are_spread_evenly() {
         (1e-3, 1.0, 0.5, 0.0),
     ] {
         assert!(
-            Touch::on_sphere(radius, angle, friction, force).is_err(),
+            DesignTouch::on_sphere(radius, angle, friction, force).is_err(),
             "{radius} {angle} {friction} {force}"
         );
     }
@@ -76,7 +78,7 @@ fn touches_of_a_surface_are_spread_by_its_area() {
     let sphere = Sphere::new(centre, radius).unwrap();
     // The ball of lines is not about the sphere.
     let about = centre + Vector3::new(1e-3, 2e-3, -1e-3);
-    let touches = Touch::on_surface(&sphere, about, 12e-3, 0.0, 3.0).unwrap();
+    let touches = DesignTouch::on_surface(&sphere, about, 12e-3, 0.0, 3.0).unwrap();
     assert!(touches.len() > 8_000, "{}", touches.len());
     for touch in &touches {
         assert!(((touch.point - centre).norm() - radius).abs() < 1e-12);
@@ -92,7 +94,7 @@ fn touches_of_a_surface_are_spread_by_its_area() {
     }
     // Lines through a disc of 12 mm meet a sphere of 7 mm in the share of their areas, twice each.
     let share = touches.len() as f64 / 2.0 / 20_000.0;
-    let around = Touch::on_surface(&sphere, centre, 14e-3, 0.0, 3.0).unwrap();
+    let around = DesignTouch::on_surface(&sphere, centre, 14e-3, 0.0, 3.0).unwrap();
     for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
         let expected = if i == j { 1.0 / 3.0 } else { 0.0 };
         assert!((mean(&around, |t| t.normal[i] * t.normal[j]) - expected).abs() < 1e-3, "{i} {j}");
@@ -100,16 +102,16 @@ fn touches_of_a_surface_are_spread_by_its_area() {
     assert!((0..3).all(|i| mean(&around, |t| t.normal[i]).abs() < 5e-3));
     let concentric = around.len() as f64 / 40_000.0;
     assert!((share - 49.0 / 144.0).abs() < 0.01 && (concentric - 0.25).abs() < 2e-3, "{share} {concentric}");
-    let with_friction = Touch::on_surface(&sphere, centre, 14e-3, 0.4, 3.0).unwrap();
+    let with_friction = DesignTouch::on_surface(&sphere, centre, 14e-3, 0.4, 3.0).unwrap();
     assert!(with_friction.len().is_multiple_of(8) && with_friction.iter().all(|touch| ratio(touch) <= 0.4));
-    assert!(Touch::on_surface(&sphere, centre, 0.0, 0.4, 3.0).is_err());
+    assert!(DesignTouch::on_surface(&sphere, centre, 0.0, 0.4, 3.0).is_err());
 }
 
 #[test]
 fn of_an_unbounded_surface_the_part_within_the_ball_is_touched() {
     let plane = Plane::new(Vector3::new(0.0, 0.0, 5e-3), Vector3::z()).unwrap();
     let (about, reach) = (Vector3::new(1e-3, 0.0, 5e-3), 20e-3);
-    let touches = Touch::on_surface(&plane, about, reach, 0.0, 1.0).unwrap();
+    let touches = DesignTouch::on_surface(&plane, about, reach, 0.0, 1.0).unwrap();
     let share = |r: f64| {
         let within = touches.iter().filter(|touch| (touch.point - about).norm() <= r);
         within.count() as f64 / touches.len() as f64

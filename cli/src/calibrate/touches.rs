@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use fingertip::surfaces::{ActiveSurface, DynSurface};
 use fingertip_calibration::Axis;
-use fingertip_calibration::design::{DesignError, Touch, TouchSet};
+use fingertip_calibration::design::{DesignError, DesignTouch, TouchSet};
 use nalgebra::Vector3;
 
 use crate::error::CliError;
@@ -49,7 +49,7 @@ impl TouchArguments {
         let fault = |error: DesignError| CliError::Design { message: error.to_string() };
         let (surface, touches) = match &self.scene {
             None => {
-                let touches = Touch::on_sphere(self.tip_radius, core::f64::consts::PI, FRICTION, force);
+                let touches = DesignTouch::on_sphere(self.tip_radius, core::f64::consts::PI, FRICTION, force);
                 let name = format!("a sphere of {} mm about the origin", 1e3 * self.tip_radius);
                 (name, touches.map_err(fault)?)
             }
@@ -61,19 +61,19 @@ impl TouchArguments {
             }
         };
         let step = touches.len() / TOUCHES + 1;
-        let touches: Vec<Touch> = touches.into_iter().step_by(step).collect();
+        let touches: Vec<DesignTouch> = touches.into_iter().step_by(step).collect();
         Ok(Some(TouchSet { surface, touches }))
     }
 }
 
-fn on(surface: &DynSurface<f64>, force: f64) -> Result<Vec<Touch>, DesignError> {
+fn on(surface: &DynSurface<f64>, force: f64) -> Result<Vec<DesignTouch>, DesignError> {
     fn all<S: ActiveSurface<f64>>(
         surface: &S,
         centre: Vector3<f64>,
         reach: f64,
         force: f64,
-    ) -> Result<Vec<Touch>, DesignError> {
-        Touch::on_surface(surface, centre, reach, FRICTION, force)
+    ) -> Result<Vec<DesignTouch>, DesignError> {
+        DesignTouch::on_surface(surface, centre, reach, FRICTION, force)
     }
     match surface {
         DynSurface::Plane(plane) => all(plane, plane.point(), REACH, force),

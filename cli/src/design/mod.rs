@@ -7,8 +7,9 @@ mod task;
 
 use fingertip::surfaces::Sphere;
 use fingertip_calibration::design::{
-    Accuracy, Assessment, DesignError, Findings as Found, LayoutFile, LoadedTube, MatrixUsed, Placement,
-    Progress, Search, ToleranceReport, Touch, Touches, Trial, TubeLayout, TubeStrength, search, tolerance,
+    Accuracy, Assessment, DesignError, DesignTouch, Findings as Found, LayoutFile, LoadedTube, MatrixUsed,
+    Placement, Progress, Search, ToleranceReport, Touches, Trial, TubeLayout, TubeStrength, search,
+    tolerance,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -95,7 +96,8 @@ fn design(arguments: &DesignArguments) -> Result<Outcome, DesignError> {
     let file = LayoutFile::new(&layout, &tube, task.excitation)?;
     let strength = tube.strength(layout.beam.thickness)?;
     let placement = arguments.parts.placement();
-    let list = Touch::on_sphere(task.tip_radius, task.half_angle, arguments.friction, 0.1 * arguments.force)?;
+    let list =
+        DesignTouch::on_sphere(task.tip_radius, task.half_angle, arguments.friction, 0.1 * arguments.force)?;
     let touches = Touches::new(&list)?;
     let tolerance = tolerance(&layout, &task.tube.loads, placement, Some(&touches), SENSORS, arguments.seed)?;
     let compared = task.compare(&layout)?;
@@ -122,7 +124,8 @@ fn trials(
     for (name, placement, matrix) in cases {
         for share in [1.0 / 30.0, 1.0 / 3.0] {
             let force = share * arguments.force;
-            let touches = Touch::on_sphere(task.tip_radius, task.half_angle, arguments.friction, force)?;
+            let touches =
+                DesignTouch::on_sphere(task.tip_radius, task.half_angle, arguments.friction, force)?;
             let trial = Trial {
                 loads: task.tube.loads,
                 placement,

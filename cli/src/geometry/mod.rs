@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fingertip::wrench::{RigidTransform, Wrench};
 use fingertip_calibration::geometry::{
-    Fitted, Touch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along, fit_ellipsoid,
+    Fitted, ShapeTouch, WrenchNoise, fit_aligned_ellipsoid, fit_cylinder, fit_cylinder_along, fit_ellipsoid,
     fit_meeting_point, fit_plane, fit_pose, fit_sphere,
 };
 use fingertip_calibration::loads::Columns;
@@ -129,9 +129,13 @@ fn find(arguments: &GeometryArguments, columns: &Columns, reaction: bool) -> Res
     let sign = if reaction { -1.0 } else { 1.0 };
     let wrenches: Vec<Wrench<f64>> =
         loads.iter().map(|load| Wrench::from_components(&(load * sign))).collect();
-    let touches = || -> Result<Vec<Touch>, String> {
+    let touches = || -> Result<Vec<ShapeTouch>, String> {
         let normals = columns.vectors(["nx", "ny", "nz"]).map_err(text)?;
-        Ok(wrenches.iter().zip(normals).map(|(wrench, normal)| Touch { wrench: *wrench, normal }).collect())
+        Ok(wrenches
+            .iter()
+            .zip(normals)
+            .map(|(wrench, normal)| ShapeTouch { wrench: *wrench, normal })
+            .collect())
     };
     let noise = &match arguments.noise.as_deref() {
         None => WrenchNoise::exact_forces(),
@@ -158,7 +162,7 @@ fn text(error: impl core::fmt::Display) -> String {
     error.to_string()
 }
 
-fn sphere(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
+fn sphere(touches: &[ShapeTouch], noise: &WrenchNoise) -> Result<Found, String> {
     let fit = fit_sphere(touches, noise).map_err(text)?;
     let widths = fit.half_widths(0.95);
     let (radius, centre) = (fit.shape.radius(), fit.shape.centre());
@@ -168,7 +172,7 @@ fn sphere(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
     Ok(Found::of(&fit, lines, scene))
 }
 
-fn ellipsoid(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
+fn ellipsoid(touches: &[ShapeTouch], noise: &WrenchNoise) -> Result<Found, String> {
     let fit = fit_ellipsoid(touches, noise).map_err(text)?;
     let widths = fit.half_widths(0.95);
     let (axes, pose) = (fit.shape.semi_axes, fit.shape.sensor_from_ellipsoid);
@@ -195,7 +199,7 @@ fn ellipsoid(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
     Ok(Found::of(&fit, lines, scene))
 }
 
-fn aligned_ellipsoid(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, String> {
+fn aligned_ellipsoid(touches: &[ShapeTouch], noise: &WrenchNoise) -> Result<Found, String> {
     let fit = fit_aligned_ellipsoid(touches, noise).map_err(text)?;
     let widths = fit.half_widths(0.95);
     let (axes, centre) = (fit.shape.semi_axes, fit.shape.centre);
@@ -208,7 +212,7 @@ fn aligned_ellipsoid(touches: &[Touch], noise: &WrenchNoise) -> Result<Found, St
     Ok(Found::of(&fit, lines, scene))
 }
 
-fn cylinder(touches: &[Touch], axis: Option<&[f64]>, noise: &WrenchNoise) -> Result<Found, String> {
+fn cylinder(touches: &[ShapeTouch], axis: Option<&[f64]>, noise: &WrenchNoise) -> Result<Found, String> {
     let fit = match axis {
         Some(axis) => fit_cylinder_along(touches, &direction("--axis", axis)?, noise),
         None => fit_cylinder(touches, noise),

@@ -27,6 +27,7 @@ mod said;
 mod said_of_files;
 mod said_of_scenes;
 mod scenes;
+mod sensors_that_fail;
 mod shapes;
 mod spared_files;
 mod standard_streams;

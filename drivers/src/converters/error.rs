@@ -93,6 +93,9 @@ impl SourceError for ConverterFault {
 
 /// Why a converter has no sample to give. `B` is the error of the bus, `P` that of the pin.
 ///
+/// What bus and pin say is shown in their `Debug` form: `embedded-hal` asks for no other, and the words that it has for kinds of
+/// errors are those of SPI, I²C and pins apart, while a converter of this crate may hang on any of them.
+///
 /// ```
 /// use fingertip_drivers::converters::ads131m::{Ads131m, Configuration, SimulatedAds131m};
 /// use fingertip_drivers::converters::{Level, Patience, SimulatedBench, WireFaults};
@@ -110,10 +113,10 @@ impl SourceError for ConverterFault {
 #[non_exhaustive]
 pub enum ConverterError<B, P> {
     /// The bus failed.
-    #[error("bus: {0:?}")]
+    #[error("the bus to the converter failed; its driver says {0:?}")]
     Bus(B),
     /// A pin failed.
-    #[error("pin: {0:?}")]
+    #[error("a pin of the converter failed; its driver says {0:?}")]
     Pin(P),
     /// The converter failed.
     #[error(transparent)]

@@ -79,10 +79,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
         Ok(Solved {
             solver,
             zero,
-            module: format!(
-                "\n/// The calibration of the sensor.\npub mod calibration {{\n    \
-                 use fingertip::{{nalgebra, wrench as fingertip_wrench}};\n\n{constants}}}\n"
-            ),
+            module: format!("\n/// The calibration of the sensor.\npub mod calibration {{\n{constants}}}\n"),
             opposite,
             is_warm: file.temperature.is_some(),
             reading,

@@ -14,10 +14,11 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::failure::Failure;
+use crate::labels::labelled;
 use anchors::anchors_of;
 use resolve::{Chapters, mended};
 
-/// Reads a book from mdBook on the standard input, and writes it with its links mended.
+/// Reads a book from mdBook on the standard input, and writes it with its links mended and its blocks named.
 pub(crate) fn preprocess() -> Result<(), Failure> {
     let mut text = String::new();
     let read = std::io::stdin().read_to_string(&mut text);
@@ -40,6 +41,7 @@ pub(crate) fn preprocess() -> Result<(), Failure> {
     let mut dead = Vec::new();
     each_chapter(&mut book, &mut |Chapter { path, source }, content| {
         let place = sources.join(source);
+        *content = labelled(content);
         *content =
             mended(content, path, &place, &chapters, &mut |what| dead.push(format!("{source}: {what}")));
     });

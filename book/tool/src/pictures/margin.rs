@@ -33,12 +33,13 @@ pub(super) fn margin() -> Result<Drawing, Failure> {
         // To the edge of the cone, at right angles.
         let outward = Point::new(1.0, -coefficient).normalize();
         svg.line(&format!("spread {class}"), tip, tip + outward * (margin * NEWTON));
-        let (beside, anchor) =
-            if margin > 0.0 { (Point::new(-1.0, 1.6), "end") } else { (Point::new(2.0, 0.5), "start") };
-        svg.text("label", tip + beside, anchor, &format!("margin {margin:.2} N").replace('-', "−"));
+        // Right of the axis, within the cone or beyond it.
+        let beside = if margin > 0.0 { Point::new(-2.2, 2.2) } else { Point::new(2.0, 0.5) };
+        svg.text("label", tip + beside, "start", &format!("{margin:+.2} N").replace('-', "−"));
     }
     Ok(svg.drawing(
         "The friction cone with a force within it, whose margin is positive, and one beyond it, whose margin is negative",
-        "The slip margin is the distance to the edge of the cone: positive while the contact holds. Here the coefficient is 0.5.",
+        "The slip margin, drawn thick, is the distance to the edge of the cone: positive while the contact holds. Here the \
+         coefficient is 0.5.",
     ))
 }

@@ -39,7 +39,8 @@ pub(super) fn line_of_action() -> Result<Drawing, Failure> {
     let foot = wrench.force().cross(&wrench.torque()) / wrench.force().norm_squared();
     svg.line("measure", Point::zeros(), drawn(&foot));
     svg.text("label", drawn(&foot) * 0.5 + Point::new(1.2, 0.4), "start", "|m| / |f|");
-    svg.text("label force", Point::new(17.0, 20.4), "start", "force f on the fingertip");
+    svg.text("label force", Point::new(17.6, 20.0), "start", "force f");
+    svg.text("label force", Point::new(17.6, 17.4), "start", "on the fingertip");
     svg.text("label contact", Point::new(8.6, 12.4), "start", "contact");
     svg.text("label normal", Point::new(7.4, 20.4), "end", "outward normal");
     svg.text("label", Point::new(1.4, -0.6), "start", "sensor");
@@ -81,8 +82,9 @@ pub(super) fn grazing() -> Result<Drawing, Failure> {
         svg.line("faint", Point::new(lever * 1e3, 24.0), Point::new(lever * 1e3, drawn(&one.point).y));
         svg.line(&format!("spread {class}"), drawn(&one.point), drawn(&other.point));
         let apart = (one.point - other.point).norm() * 1e3;
-        let up = drawn(&other.point) + Point::new(1.4, if lever < 0.01 { 2.0 } else { -0.5 });
-        svg.text("label", up, "start", &format!("{apart:.2} mm"));
+        // Within the ball, where no line crosses it; the first is left of all lines.
+        let aside = if lever > 0.0 { Point::new(-1.0, -1.6) } else { Point::new(-1.2, 1.6) };
+        svg.text("label", drawn(&other.point) + aside, "end", &format!("{apart:.2} mm"));
     }
     Ok(svg.drawing(
         "A ball that is pressed from above at four distances from its middle; the spread of contacts grows towards the rim",

@@ -102,6 +102,9 @@ impl Svg {
     }
 }
 
+/// Letters on a phone are this part of the drawing's width, so that they are read there: some 11 of 350 pixels.
+const ON_PHONE: f64 = 0.031;
+
 /// A drawing that is done.
 pub(super) struct Drawing {
     /// In pixels.
@@ -125,9 +128,12 @@ impl Drawing {
     pub(super) fn figure(&self) -> String {
         let Self { size, body, said, caption } = self;
         format!(
-            "<figure class=\"drawing\">\n<svg viewBox=\"0 0 {:.0} {:.0}\" style=\"max-width: {:.0}px\" role=\"img\" \
-             aria-label=\"{said}\">\n{body}</svg>\n<figcaption>{caption}</figcaption>\n</figure>\n",
-            size.x, size.y, size.x
+            "<figure class=\"drawing\">\n<svg viewBox=\"0 0 {:.0} {:.0}\" style=\"max-width: {:.0}px; --on-phone: {:.0}px\" \
+             role=\"img\" aria-label=\"{said}\">\n{body}</svg>\n<figcaption>{caption}</figcaption>\n</figure>\n",
+            size.x,
+            size.y,
+            size.x,
+            ON_PHONE * size.x
         )
     }
 

@@ -3,6 +3,9 @@
 // Quality: BAD
 // - made up
 
+// A program that has `fingertip-wrench` and `nalgebra` instead of `fingertip` leaves this line out.
+use fingertip::{nalgebra, wrench as fingertip_wrench};
+
 /// Number of gauges.
 pub const GAUGES: usize = 7;
 

@@ -1,6 +1,5 @@
 //! A sensor on a CAN bus.
 
-use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use embedded_can::{Frame, Id, blocking};
@@ -29,7 +28,9 @@ use crate::{Sample, Source, SourceError, SourceErrorKind};
 /// let assembler = CanAssembler::new(AxisCounts::uniform(50.0, 2000.0)?, first, second);
 /// let mut sensor = CanSensor::<_, f64>::new(bus, assembler, request);
 /// // It was not asked to send.
-/// assert_eq!(sensor.next_sample(), Err(CanSensorError::Bus(Silent)));
+/// let silent = CanSensorError::Bus(Silent);
+/// assert!(silent.to_string().starts_with("the CAN bus failed: "));
+/// assert_eq!(sensor.next_sample(), Err(silent));
 /// sensor.request(Request::Single)?;
 /// let told = sensor.next_sample().unwrap_err().to_string();
 /// assert_eq!(told, "the sensor is overloaded (overload byte 0x04)");
@@ -37,9 +38,9 @@ use crate::{Sample, Source, SourceError, SourceErrorKind};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
-pub enum CanSensorError<E> {
-    /// The bus failed.
-    #[error("CAN: {0:?}")]
+pub enum CanSensorError<E: embedded_can::Error> {
+    /// The bus failed: the kind is in words, and what the bus itself says is in its `Debug` form, since it need not have another.
+    #[error("the CAN bus failed: {kind} ({error:?})", kind = .0.kind(), error = .0)]
     Bus(E),
     /// The sensor says that its reading is none.
     #[error(transparent)]
@@ -49,7 +50,7 @@ pub enum CanSensorError<E> {
     Frame,
 }
 
-impl<E: Debug> SourceError for CanSensorError<E> {
+impl<E: embedded_can::Error> SourceError for CanSensorError<E> {
     fn kind(&self) -> SourceErrorKind {
         match self {
             Self::Bus(_) => SourceErrorKind::Transport,

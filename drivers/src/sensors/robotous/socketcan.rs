@@ -27,8 +27,16 @@ pub(super) fn open(address: &Address, counts: AxisCounts) -> Result<OpenSensor, 
     };
     let socket = open().map_err(|source| ConnectError::Can { place: place.to_owned(), source })?;
     let mut sensor = CanSensor::new(socket, CanAssembler::new(counts, first, second), requests);
-    sensor.request(Request::Stream).map_err(|error| ConnectError::Start(error.to_string()))?;
+    sensor.request(Request::Stream).map_err(|error| ConnectError::Start(said(&error)))?;
     Ok(OpenSensor::new(OnSocket(sensor)))
+}
+
+/// A socket says in words what failed, where a bus in general has but a kind.
+fn said(error: &CanSensorError<socketcan::Error>) -> String {
+    match error {
+        CanSensorError::Bus(error) => format!("the CAN bus failed: {error}"),
+        other => other.to_string(),
+    }
 }
 
 /// An identifier of the address, hexadecimal: of 11 bits with up to three digits, of 29 with more.
@@ -60,7 +68,7 @@ impl Opened for OnSocket {
         self.0.poll_sample().map_err(|error| match error {
             nb::Error::WouldBlock => SensorFault::of_kind(SourceErrorKind::Timeout, "no frame came in time"),
             nb::Error::Other(CanSensorError::Sensor(fault)) => SensorFault::new(fault),
-            nb::Error::Other(error) => SensorFault::of_kind(error.kind(), error.to_string()),
+            nb::Error::Other(error) => SensorFault::of_kind(error.kind(), said(&error)),
         })
     }
 
@@ -73,7 +81,7 @@ impl Opened for OnSocket {
 
 #[cfg(test)]
 mod tests {
-    use super::{Id, exactly, identifier};
+    use super::{CanSensorError, Id, exactly, identifier, said};
     use crate::devices::{Address, devices, open};
 
     fn parse(text: &str) -> Address {
@@ -91,6 +99,13 @@ mod tests {
             let error = open(&parse(address)).unwrap_err().to_string();
             assert!(error.contains(expected), "{error}");
         }
+    }
+
+    #[test]
+    fn what_fails_on_the_bus_is_said_in_words() {
+        let down = std::io::Error::from_raw_os_error(100);
+        let told = said(&CanSensorError::Bus(down.into()));
+        assert_eq!(told, "the CAN bus failed: Network is down (os error 100)");
     }
 
     #[test]

@@ -113,10 +113,11 @@ impl From<wrench::LeastSquaresError> for BadTip {
 
 /// The calibration of the sensor.
 pub mod calibration {
-    use fingertip::{nalgebra, wrench as fingertip_wrench};
-
     // Calibration fnv1a64:8a1ca471024c78dd, written by fingertip-calibration 0.1.0.
     // Quality: unchecked
+
+    // A program that has `fingertip-wrench` and `nalgebra` instead of `fingertip` leaves this line out.
+    use fingertip::{nalgebra, wrench as fingertip_wrench};
 
     /// Number of gauges.
     pub const GAUGES: usize = 8;
