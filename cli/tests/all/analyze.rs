@@ -25,6 +25,28 @@ fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [&ANALYZE, more].concat()
 }
 
+/// What only a report shows is not kept without one; nothing else may miss it.
+#[test]
+fn without_a_report_the_rest_is_the_same() {
+    let rows: String = (0..900)
+        .map(|row| {
+            if row % 7 == 3 {
+                format!("{row}e-3,0,0,nan,0,0,0\n")
+            } else {
+                push(f64::from(row) * 1e-3, 0.001 * f64::from(row))
+            }
+        })
+        .collect();
+    let folder = folder(&rows);
+    let with_report = folder.succeed(&with(&["--output", "a.csv", "--report", "a.html"]));
+    let without = folder.succeed(&with(&["--output", "b.csv", "--no-report"]));
+    assert_eq!(folder.read("a.csv"), folder.read("b.csv"));
+    let before_files =
+        |said: &str| said.split("a.csv").next().unwrap().split("b.csv").next().unwrap().to_owned();
+    assert_eq!(before_files(&with_report), before_files(&without));
+    assert!(with_report.lines().count() > 10 && folder.read("a.html").contains("<svg"));
+}
+
 #[test]
 fn every_outcome_has_its_word_and_every_contact_its_numbers() {
     let rows = [
