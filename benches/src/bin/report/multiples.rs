@@ -23,7 +23,7 @@ const ORIGIN: &str = "<!-- Written by the report of the benches: cargo run --rel
                       --book book/src/measures -->\n\n";
 
 /// The pages of the book, by the names of their files: one a part, with what is said of it and its diagrams, and one that
-/// leads to them. `measured` says where. `measured` says where.
+/// leads to them. `measured` says where.
 pub(crate) fn pages(
     measured: &str,
     groups: &[Group],
@@ -36,7 +36,7 @@ pub(crate) fn pages(
          better on both axes, and nothing lies below and left of it.\n\n"
     );
     let mut pages = Vec::new();
-    for ((_, diagrams), (name, (title, said))) in groups.iter().zip(parts) {
+    for ((title, diagrams), (name, (_, said))) in groups.iter().zip(parts) {
         // Writing to a String cannot fail.
         let _ = writeln!(first, "- [{title}]({name}.md)");
         let mut text = format!("{ORIGIN}# {title}\n\n{measured} [How](README.md).\n\n");
