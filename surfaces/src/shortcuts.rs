@@ -1,10 +1,10 @@
 //! What a shape knows sooner, or to more digits, than its crossings tell.
 
 use fingertip_wrench::{Line, Real, RigidTransform};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use crate::numeric::vectors::wide;
-use crate::{Entry, ForceLine};
+use crate::numeric::fine_pose::FinePose;
+use crate::{ActiveSurface, Entry, ForceLine};
 
 /// What a shape knows sooner, or to more digits, than its crossings tell. Point contact asks here first.
 ///
@@ -91,6 +91,13 @@ pub trait Shortcuts<T: Real>: Sized {
         None
     }
 
+    /// The same, of a shape that a pose puts in place: its rounding in a narrower type is none that a residual undoes.
+    /// The default is [`entry_in_double`](Self::entry_in_double).
+    #[inline(always)]
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        self.entry_in_double(line, near)
+    }
+
     /// The shortcuts of the part of this surface to which `is_part` says that an entry belongs. They no longer
     /// promise that it may touch everywhere.
     #[inline(always)]
@@ -139,6 +146,11 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for &S {
     fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         (**self).entry_in_double(line, near)
     }
+
+    #[inline(always)]
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        (**self).posed_entry_in_double(line, near)
+    }
 }
 
 struct Within<S, F> {
@@ -162,6 +174,11 @@ impl<T: Real, S: Shortcuts<T>, F: Fn(&Entry<T>) -> bool> Shortcuts<T> for Within
     #[inline(always)]
     fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         self.whole.entry_in_double(line, near)
+    }
+
+    #[inline(always)]
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        self.whole.posed_entry_in_double(line, near)
     }
 }
 
@@ -187,17 +204,30 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for Moved<'_, T, S> {
         self.inner.surface_residual(&self.pose.rotation().tr_mul(&(point - self.pose.origin())))
     }
 
-    /// A rotation that is stored in a narrower type is one to its digits only: it is undone to those of this.
     fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
-        let (rotation, origin) = (self.pose.rotation().map(Real::to_f64), wide(&self.pose.origin()));
-        // A step of Newton's method for the inverse, from one that is off by ε.
-        let back = rotation.transpose();
-        let back = back * (Matrix3::identity() * 2.0 - rotation * back);
-        let inside = |point: &Vector3<f64>| back * (point - origin);
-        let line = Line { point: inside(&line.point), direction: back * line.direction };
-        let [point, normal] = self.inner.entry_in_double(&line, &inside(near))?;
-        Some([rotation * point + origin, back.tr_mul(&normal)])
+        let pose = FinePose::new(self.pose);
+        let [point, normal] =
+            self.inner.posed_entry_in_double(&pose.line_inside(line), &pose.point_inside(near))?;
+        Some([pose.point_outside(&point), pose.normal_outside(&normal).0])
     }
+}
+
+/// Of the places where a line enters a shape the one nearest to a point: the point and the outward unit normal.
+#[cold]
+pub(crate) fn entry_near(
+    shape: &impl ActiveSurface<f64>,
+    line: &Line<f64>,
+    near: &Vector3<f64>,
+) -> Option<[Vector3<f64>; 2]> {
+    let mut best: Option<(f64, [Vector3<f64>; 2])> = None;
+    shape.crossings(line, |crossing| {
+        let away = (crossing.point - near).norm_squared();
+        let enters = crossing.active && crossing.normal.dot(&line.direction) < 0.0;
+        if enters && best.is_none_or(|(least, _)| away < least) {
+            best = Some((away, [crossing.point, crossing.normal]));
+        }
+    });
+    best.map(|(_, entry)| entry).filter(|[point, normal]| (point.sum() + normal.sum()).is_number())
 }
 
 /// [`Shortcuts::CLOSED_CONVEX`] of the shortcuts of a surface, whose type has no name.

@@ -2,7 +2,7 @@
 
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::{largest, wide};
-use fingertip_surfaces::{ActiveSurface, Crossing, Shortcuts};
+use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
@@ -27,10 +27,9 @@ impl<T: Real> Place<T> {
 pub(super) fn entered<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
-    crossing: &Crossing<T>,
+    (point, normal): (Vector3<T>, Vector3<T>),
     incidence: T,
 ) -> Place<T> {
-    let Crossing { point, normal, .. } = *crossing;
     if incidence < flat() {
         let (point, normal) = onto_line(wrench, surface, (point, normal), incidence);
         return Place::at(point, normal);

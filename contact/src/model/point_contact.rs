@@ -2,7 +2,7 @@
 
 use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, largest};
 use fingertip_surfaces::{
-    ActiveSurface, BadShape, Crossing, ForceLine, ForceParts, Shortcuts, is_closed_convex,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, ForceLine, ForceParts, Shortcuts, is_closed_convex,
 };
 use fingertip_wrench::{
     ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
@@ -154,7 +154,7 @@ impl<T: Real> PointContact<T> {
             let pressing = incidence > T::zero() && incidence >= self.least_incidence;
             if crossing.active && pressing && in_range(&crossing.point) {
                 any = true;
-                let place = entered(wrench, surface, &crossing, incidence);
+                let place = entered(wrench, surface, (crossing.point, crossing.normal), incidence);
                 visit(contact_at(wrench, place.point, place.normal));
             }
         });
@@ -258,10 +258,13 @@ impl<T: Real> PointContact<T> {
         let found = if is_closed_convex(&surface.shortcuts()) {
             self.only_entry(wrench, surface, &axis.line)
         } else {
-            self.best_entry(wrench, surface, &axis.line, last)
+            self.best_entry(wrench, surface, &axis.line, last).unwrap_or_else(|| {
+                let closest = surface.closest_approach(&axis.line);
+                self.meet(wrench, surface, &axis.line, closest, false)
+            })
         };
         // One place writes the contact, whichever way it was found: that keeps the code small.
-        match found.unwrap_or_else(|| self.near_miss(wrench, surface, &axis.line)) {
+        match found {
             Ok(Place { point, normal, gap, alternatives }) => {
                 Resolution::Contact(Contact { gap, alternatives, ..contact_at(wrench, point, normal) })
             }
@@ -269,31 +272,23 @@ impl<T: Real> PointContact<T> {
         }
     }
 
-    /// Where the line enters a surface that no line enters twice; `None` if it misses.
+    /// Where the line enters a surface that no line enters twice, or what to make of it if it misses.
     #[inline(always)]
     fn only_entry<S: ActiveSurface<T>>(
         &self,
         wrench: &Wrench<T>,
         surface: &S,
         line: &Line<T>,
-    ) -> Option<Result<Place<T>, NoContact<T>>> {
+    ) -> Result<Place<T>, NoContact<T>> {
         let mut entry = None;
-        surface.crossings(line, |crossing| {
+        surface.crossings(line, |Crossing { point, normal, .. }| {
             if entry.is_none() {
-                entry = Some(crossing);
+                entry = Some(ClosestApproach { gap: T::zero(), point, normal, active: true });
             }
         });
-        let crossing: Crossing<T> = entry?;
-        if !in_range(&crossing.point) {
-            return Some(Err(NoContact::NotFinite));
-        }
-        // A line that is tangent within rounding neither presses nor pulls, but touches.
-        let incidence = larger(-line.direction.dot(&crossing.normal), T::zero());
-        Some(if incidence >= self.least_incidence {
-            Ok(entered(wrench, surface, &crossing, incidence))
-        } else {
-            Err(too_flat(crossing.point, incidence))
-        })
+        // What both ways do is there once: that keeps the code small, too.
+        let enters = entry.is_some();
+        self.meet(wrench, surface, line, entry.or_else(|| surface.closest_approach(line)), enters)
     }
 
     /// Of all entries the best, or the reason why none is a contact; `None` if there are none.
@@ -327,7 +322,7 @@ impl<T: Real> PointContact<T> {
             }
         });
         if let Some((crossing, incidence)) = seen.best {
-            let place = entered(wrench, surface, &crossing, incidence);
+            let place = entered(wrench, surface, (crossing.point, crossing.normal), incidence);
             return Some(Ok(Place { alternatives: seen.candidates - 1, ..place }));
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.
@@ -337,32 +332,44 @@ impl<T: Real> PointContact<T> {
         seen.reason().map(Err)
     }
 
-    /// What to make of a line that misses.
+    /// What to make of a line that enters at `closest`, or misses and is closest there.
     #[inline(always)]
-    fn near_miss<S: ActiveSurface<T>>(
+    fn meet<S: ActiveSurface<T>>(
         &self,
         wrench: &Wrench<T>,
         surface: &S,
         line: &Line<T>,
+        closest: Option<ClosestApproach<T>>,
+        enters: bool,
     ) -> Result<Place<T>, NoContact<T>> {
-        let Some(approach) = surface.closest_approach(line) else {
+        let Some(approach) = closest else {
             return Err(NoContact::Misses { closest: None });
         };
-        if !(in_range(&approach.point) && approach.gap.is_number()) {
+        let ClosestApproach { gap, point, normal, active } = approach;
+        if !(in_range(&point) && gap.is_number()) {
             return Err(NoContact::NotFinite);
         }
+        // A line that is tangent within rounding neither presses nor pulls, but touches.
+        let incidence = larger(-line.direction.dot(&normal), T::zero());
+        let held = incidence >= self.least_incidence;
+        if enters {
+            return if held {
+                Ok(entered(wrench, surface, (point, normal), incidence))
+            } else {
+                Err(too_flat(point, incidence))
+            };
+        }
         // Rounding may make a line miss that meets: then double precision knows, where that is told.
-        let hair = T::EPSILON * T::literal(64.0) * largest(&approach.point);
-        if approach.active
-            && approach.gap <= hair
-            && let Some((point, normal)) = in_double(wrench, surface, &approach.point)
+        let hair = T::EPSILON * T::literal(64.0) * largest(&point);
+        if active
+            && gap <= hair
+            && let Some((point, normal)) = in_double(wrench, surface, &point)
             && -line.direction.dot(&normal) >= self.least_incidence
         {
             return Ok(Place::at(point, normal));
         }
-        let incidence = larger(-line.direction.dot(&approach.normal), T::zero());
-        if approach.gap <= self.greatest_gap && approach.active && incidence >= self.least_incidence {
-            return Ok(Place { gap: approach.gap, ..Place::at(approach.point, approach.normal) });
+        if gap <= self.greatest_gap && active && held {
+            return Ok(Place { gap, ..Place::at(point, normal) });
         }
         Err(NoContact::Misses { closest: Some(approach) })
     }

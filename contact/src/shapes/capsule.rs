@@ -56,10 +56,15 @@ fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftCon
 /// between the side and an end.
 fn on_capsule_finely<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     finely(on_capsule(shape, wrench), spins_little(wrench, shape.radius()), wrench, |wrench| {
-        let [half, radius] = [shape.half_length(), shape.radius()].map(Real::to_f64);
-        let double = Capsule::new(wide(&shape.centre()), wide(&shape.axis()), radius, half);
-        double.ok().map(|double| on_capsule(&double, wrench))
+        capsule_in_double(shape, wrench)
     })
+}
+
+fn capsule_in_double<T: Real>(
+    shape: &Capsule<T>,
+    wrench: &Wrench<f64>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    shape.in_double().map(|double| on_capsule(&double, wrench))
 }
 
 /// The contact of a force that presses steeply, on the side or on the end that the side's contact lies beyond: a
@@ -91,6 +96,8 @@ soft_finger!(
     ),
     sole | shape,
     push | steeply_on_capsule(shape, push),
+    double | shape,
+    wrench | capsule_in_double(shape, wrench),
     patch | shape,
     point | {
         let (origin, axis) = (wide(&shape.centre()), wide(&shape.axis()));

@@ -1,6 +1,7 @@
 //! Shapes made of shapes.
 
 use fingertip_surfaces::is_inside_along;
+use fingertip_surfaces::numeric::fine_pose::FinePose;
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::{
     ActiveSurface, Compound, ForceLine, Offset, Posed, Region, SignedDistance, SmoothSurface, Trimmed,
@@ -8,9 +9,40 @@ use fingertip_surfaces::{
 use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
 use nalgebra::{Rotation3, Vector3};
 
+use crate::soft_finger::closed_form::is_pure_force;
+use crate::soft_finger::double::{in_type, narrow};
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
+/// The contacts of a posed shape by those of the shape, under the wrench in its frame.
+fn moved<T: Real, S: SoftFingerSurface<T>>(
+    posed: &Posed<T, S>,
+    wrench: &Wrench<T>,
+    last: Option<&Vector3<T>>,
+    mut visit: impl FnMut(SoftContact<T>),
+) -> Search<T> {
+    let pose = posed.sensor_from_shape();
+    let (rotation, origin) = (pose.rotation(), pose.origin());
+    let inside = Wrench::on_fingertip(
+        rotation.tr_mul(&wrench.force()),
+        rotation.tr_mul(&wrench.torque_about(&origin)),
+    );
+    let last = last.map(|last| rotation.tr_mul(&(last - origin)));
+    let search = posed.inner().soft_contacts(&inside, last.as_ref(), |contact| {
+        visit(SoftContact {
+            point: rotation * contact.point + origin,
+            normal: rotation * contact.normal,
+            ..contact
+        });
+    });
+    match search {
+        Search::Grazing(pair) => Search::Grazing(pair.map(|point| rotation * point + origin)),
+        other => other,
+    }
+}
+
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
+    /// In double precision where the type is narrower and the shape knows: moving a wrench rounds it, and turning it by a
+    /// rotation that is orthogonal to a few digits bends it.
     #[inline]
     fn soft_contacts(
         &self,
@@ -18,23 +50,33 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         last: Option<&Vector3<T>>,
         mut visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        let pose = self.sensor_from_shape();
-        let (rotation, origin) = (pose.rotation(), pose.origin());
-        let inside = Wrench::on_fingertip(
-            rotation.tr_mul(&wrench.force()),
-            rotation.tr_mul(&wrench.torque_about(&origin)),
-        );
-        let last = last.map(|last| rotation.tr_mul(&(last - origin)));
-        let search = self.inner().soft_contacts(&inside, last.as_ref(), |contact| {
-            visit(SoftContact {
-                point: rotation * contact.point + origin,
-                normal: rotation * contact.normal,
-                ..contact
-            });
-        });
-        match search {
-            Search::Grazing(pair) => Search::Grazing(pair.map(|point| rotation * point + origin)),
-            other => other,
+        if T::CARRIES_MORE || T::EPSILON.to_f64() <= f64::EPSILON {
+            return moved(self, wrench, last, visit);
+        }
+        let (force, torque) = (wide(&wrench.force()), wide(&wrench.torque()));
+        match self.soft_contact_in_double(&Wrench::on_fingertip(force, torque)) {
+            Some(Ok(contact)) => {
+                visit(narrow(&contact));
+                Search::Complete
+            }
+            Some(Err(pair @ Search::Grazing(_))) => in_type(pair),
+            // There is none; whether rounding could make one is for the narrower type to say.
+            Some(Err(Search::Complete)) => {
+                let mut any = false;
+                let search = moved(self, wrench, last, |_| any = true);
+                if any { Search::Incomplete } else { search }
+            }
+            Some(Err(Search::Incomplete | Search::Uncertified)) => {
+                let mut any = false;
+                let search = moved(self, wrench, last, |contact| {
+                    any = true;
+                    visit(contact);
+                });
+                // A pure force either hits or misses, though it is none any more once it is moved.
+                let told = any || !is_pure_force(&wrench.force(), &wrench.torque());
+                if told { search } else { Search::Complete }
+            }
+            None => moved(self, wrench, last, visit),
         }
     }
 
@@ -45,6 +87,21 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
             point: pose.transform_point(&contact.point),
             normal: pose.rotate(&contact.normal),
             ..contact
+        })
+    }
+
+    /// Of the shape under the wrench that has the contact there (`docs/theory/contact.md#shapes-in-a-pose`).
+    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        let pose = FinePose::new(self.sensor_from_shape());
+        let found = self.inner().soft_contact_in_double(&pose.wrench_inside(wrench))?;
+        Some(match found {
+            Ok(SoftContact { point, normal, spin_torque, active }) => {
+                let (normal, share) = pose.normal_outside(&normal);
+                let point = pose.point_outside(&point);
+                Ok(SoftContact { point, normal, spin_torque: spin_torque * share, active })
+            }
+            Err(Search::Grazing(pair)) => Err(Search::Grazing(pair.map(|point| pose.point_outside(&point)))),
+            Err(ended) => Err(ended),
         })
     }
 
@@ -86,6 +143,14 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
 
     fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         self.inner().patch(point)
+    }
+
+    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        let found = self.inner().soft_contact_in_double(wrench)?;
+        Some(found.map(|contact| SoftContact {
+            active: contact.active && self.region().includes(&contact.point.map(T::literal)),
+            ..contact
+        }))
     }
 
     #[inline]

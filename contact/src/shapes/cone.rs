@@ -213,24 +213,33 @@ fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
         let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sine();
         is_steady(wrench, radius)(contact)
     };
-    finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| {
-        let double = Cone::new(wide(&cone.apex()), wide(&cone.axis()), cone.half_angle().to_f64());
-        double.ok().map(|double| on_side_or_tip(&double, wrench))
-    })
+    finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| cone_in_double(cone, wrench))
+}
+
+fn cone_in_double<T: Real>(
+    cone: &Cone<T>,
+    wrench: &Wrench<f64>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    let double = cone.in_double()?;
+    Some(on_side_or_tip(&double, wrench).map(|contact| if_active(&double, contact)))
+}
+
+/// With what the depth of the cone says.
+fn if_active<T: Real>(cone: &Cone<T>, contact: SoftContact<T>) -> SoftContact<T> {
+    SoftContact { active: contact.point == cone.apex() || is_active(cone, &contact), ..contact }
 }
 
 soft_finger!(
     /// The side, or the tip, on which any normal will do that is steeper than the side's.
     Cone,
     |shape, wrench, _, visit| told(
-        on_cone_finely(shape, wrench).map(|contact| {
-            let active = contact.point == shape.apex() || is_active(shape, &contact);
-            SoftContact { active, ..contact }
-        }),
+        on_cone_finely(shape, wrench).map(|contact| if_active(shape, contact)),
         visit
     ),
     sole | shape,
     push | steeply_on_cone(shape, push),
+    double | shape,
+    wrench | cone_in_double(shape, wrench),
     patch | shape,
     _ | Some(LocalSurface::Cone {
         origin: wide(&shape.apex()),

@@ -148,14 +148,16 @@ fn cylinder_contact<T: Real>(
 fn on_cylinder_finely<T: Real>(shape: &Cylinder<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     let found = cylinder_contact(shape, &wrench.force(), |point| wrench.torque_about(point));
     finely(found.ok_or(Search::Complete), spins_little(wrench, shape.radius()), wrench, |wrench| {
-        let double = Cylinder::new(wide(&shape.centre()), wide(&shape.axis()), shape.radius().to_f64());
-        let double = match shape.half_length() {
-            Some(half) => double.and_then(|double| double.with_half_length(half.to_f64())),
-            None => double,
-        };
-        let found = cylinder_contact(&double.ok()?, &wrench.force(), |point| wrench.torque_about(point));
-        Some(found.ok_or(Search::Complete))
+        cylinder_in_double(shape, wrench)
     })
+}
+
+fn cylinder_in_double<T: Real>(
+    shape: &Cylinder<T>,
+    wrench: &Wrench<f64>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    let found = cylinder_contact(&shape.in_double()?, &wrench.force(), |point| wrench.torque_about(point));
+    Some(found.ok_or(Search::Complete))
 }
 
 soft_finger!(
@@ -168,6 +170,8 @@ soft_finger!(
             ..contact
         }
     ),
+    double | shape,
+    wrench | cylinder_in_double(shape, wrench),
     patch | shape,
     _ | Some(LocalSurface::Cone {
         origin: wide(&shape.centre()),

@@ -26,6 +26,10 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.sole_soft_contact(push))
     }
 
+    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        each_surface!(self, shape => shape.soft_contact_in_double(wrench))
+    }
+
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
         each_surface!(self, shape => shape.sensitivity(size, point))
     }

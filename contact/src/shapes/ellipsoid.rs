@@ -11,6 +11,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::{soft_finger, told};
+use crate::soft_finger::double::unless_grazing;
 use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{Search, SoftContact};
 
@@ -91,6 +92,8 @@ soft_finger!(
     |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_ellipsoid(shape, push),
+    double | shape,
+    wrench | shape.in_double().and_then(|double| unless_grazing::<T>(wrench, on_ellipsoid(&double, wrench))),
     // The three semi-axes.
     sizes | shape,
     size,

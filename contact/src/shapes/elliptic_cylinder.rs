@@ -80,19 +80,22 @@ fn on_elliptic_cylinder_finely<T: Real>(
 ) -> Result<SoftContact<T>, Search<T>> {
     let [a, b] = shape.semi_axes();
     finely(on_elliptic_cylinder(shape, wrench), is_steady(wrench, smaller(a, b)), wrench, |wrench| {
-        let ends = match shape.ends() {
-            CylinderEnds::Unbounded => CylinderEnds::Unbounded,
-            CylinderEnds::Open(half) => CylinderEnds::Open(half.to_f64()),
-            CylinderEnds::Capped(half) => CylinderEnds::Capped(half.to_f64()),
-        };
-        let double = EllipticCylinder::new(shape.semi_axes().map(Real::to_f64), ends);
-        double.ok().map(|double| on_elliptic_cylinder(&double, wrench))
+        elliptic_in_double(shape, wrench)
     })
+}
+
+fn elliptic_in_double<T: Real>(
+    shape: &EllipticCylinder<T>,
+    wrench: &Wrench<f64>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    shape.in_double().map(|double| on_elliptic_cylinder(&double, wrench))
 }
 
 soft_finger!(
     EllipticCylinder,
     |shape, wrench, _, visit| told(on_elliptic_cylinder_finely(shape, wrench), visit),
+    double | shape,
+    wrench | elliptic_in_double(shape, wrench),
     patch | shape,
     point
         | Some(match shape.ends() {

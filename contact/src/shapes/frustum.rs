@@ -139,18 +139,31 @@ fn is_on_edge<T: Real>(solid: &Frustum<T>, point: &Vector3<T>) -> bool {
 }
 
 /// In double precision if the type is narrower and rounding decides between the side, an end and an edge. So it does on
-/// an edge, where the place answers to the torque by more the less that is. `double` is the same solid.
+/// an edge, where the place answers to the torque by more the less that is.
 fn on_frustum_finely<T: Real>(
     solid: &Frustum<T>,
     wrench: &Wrench<T>,
-    double: impl FnOnce() -> Option<Frustum<f64>>,
+    again: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
 ) -> Result<SoftContact<T>, Search<T>> {
     let lever = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
     let is_steady = is_steady(wrench, lever);
     let is_steady = |contact: &SoftContact<T>| is_steady(contact) && !is_on_edge(solid, &contact.point);
-    finely(sole(on_frustum(solid, wrench), wrench), is_steady, wrench, |wrench| {
-        double().map(|double| sole(on_frustum(&double, wrench), wrench))
-    })
+    finely(sole(on_frustum(solid, wrench), wrench), is_steady, wrench, again)
+}
+
+/// `double` is the same solid in double precision.
+fn frustum_in_double(
+    double: Option<Frustum<f64>>,
+    wrench: &Wrench<f64>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    double.map(|double| sole(on_frustum(&double, wrench), wrench))
+}
+
+fn capped_in_double<T: Real>(
+    shape: &CappedCylinder<T>,
+    wrench: &Wrench<f64>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    frustum_in_double(shape.in_double().map(|double| *double.solid()), wrench)
 }
 
 /// The side, or the plane of an end: which of them the normal of the surface is nearer to.
@@ -181,15 +194,13 @@ fn solid_patch<T: Real>(
 soft_finger!(
     Frustum,
     |shape, wrench, _, visit| told(
-        on_frustum_finely(shape, wrench, || {
-            let [height, base, top] =
-                [shape.height(), shape.base_radius(), shape.top_radius()].map(Real::to_f64);
-            Frustum::new(wide(&shape.base_centre()), wide(&shape.axis()), base, top, height).ok()
-        }),
+        on_frustum_finely(shape, wrench, |wrench| frustum_in_double(shape.in_double(), wrench)),
         visit
     ),
     sole | shape,
     push | steeply_on_frustum(shape, push),
+    double | shape,
+    wrench | frustum_in_double(shape.in_double(), wrench),
     patch | shape,
     point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()])),
     sizes | shape,
@@ -200,15 +211,13 @@ soft_finger!(
 soft_finger!(
     CappedCylinder,
     |shape, wrench, _, visit| told(
-        on_frustum_finely(shape.solid(), wrench, || {
-            let [radius, half] = [shape.radius(), shape.half_length()].map(Real::to_f64);
-            let double = CappedCylinder::new(wide(&shape.centre()), wide(&shape.axis()), radius, half);
-            double.ok().map(|double| *double.solid())
-        }),
+        on_frustum_finely(shape.solid(), wrench, |wrench| capped_in_double(shape, wrench)),
         visit
     ),
     sole | shape,
     push | steeply_on_frustum(shape.solid(), push),
+    double | shape,
+    wrench | capped_in_double(shape, wrench),
     patch | shape,
     point | {
         let half = shape.half_length().to_f64();

@@ -19,16 +19,26 @@ fn on_rounded_box<T: Real>(
     let mut found = None;
     let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
     finely(found.ok_or(search), spins_little(wrench, shape.rounding()), wrench, |wrench| {
-        let double = RoundedBox::new(wide(&shape.half_extents()), shape.rounding().to_f64()).ok()?;
-        let (last, mut found) = (last.map(wide), None);
-        let search = newton_soft_contacts(&double, wrench, last.as_ref(), |contact| found = Some(contact));
-        Some(found.ok_or(search))
+        rounded_box_in_double(shape, wrench, last.map(wide).as_ref())
     })
+}
+
+fn rounded_box_in_double<T: Real>(
+    shape: &RoundedBox<T>,
+    wrench: &Wrench<f64>,
+    last: Option<&Vector3<f64>>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    let double = RoundedBox::new(wide(&shape.half_extents()), shape.rounding().to_f64()).ok()?;
+    let mut found = None;
+    let search = newton_soft_contacts(&double, wrench, last, |contact| found = Some(contact));
+    Some(found.ok_or(search))
 }
 
 soft_finger!(
     RoundedBox,
     |shape, wrench, last, visit| told(on_rounded_box(shape, wrench, last), visit),
+    double | shape,
+    wrench | rounded_box_in_double(shape, wrench, None),
     patch | shape,
     point | {
         let (half_extents, rounding) = (wide(&shape.half_extents()), shape.rounding().to_f64());

@@ -12,6 +12,7 @@ use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, pick, scale, split};
 use crate::soft_finger::closed_form::{part_of, soft_finger, told};
+use crate::soft_finger::double::unless_grazing;
 use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
@@ -64,6 +65,8 @@ soft_finger!(
     |shape, wrench, _, visit| told(on_sphere(shape, wrench).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_sphere(shape, push),
+    double | shape,
+    wrench | shape.in_double().and_then(|double| unless_grazing::<T>(wrench, on_sphere(&double, wrench))),
     sizes | _,
     size,
     _ | (size == 0).then(GeometrySensitivity::offset)

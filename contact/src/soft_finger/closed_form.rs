@@ -21,6 +21,7 @@ pub(crate) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
 macro_rules! soft_finger {
     ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
         $(, sole |$only:ident, $load:ident| $sole:expr)?
+        $(, double |$coarse:ident, $fine:ident| $again:expr)?
         $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?
         $(, sizes |$sized:pat_param, $size:ident, $place:pat_param| $change:expr)?) => {
         $(#[$doc])*
@@ -41,6 +42,14 @@ macro_rules! soft_finger {
             fn sole_soft_contact(&self, $load: &fingertip_surfaces::ForceLine<T>) -> Option<$crate::SoftContact<T>> {
                 let $only = self;
                 $sole
+            })?
+
+            $(fn soft_contact_in_double(
+                &self,
+                $fine: &fingertip_wrench::Wrench<f64>,
+            ) -> Option<Result<$crate::SoftContact<f64>, $crate::Search<f64>>> {
+                let $coarse = self;
+                $again
             })?
 
             $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<$crate::Patch> {

@@ -2,6 +2,7 @@
 
 use fingertip_surfaces::numeric::vectors::{length, wide};
 use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
 
 use super::closed_form::is_steady_under;
 use crate::{Search, SoftContact};
@@ -37,6 +38,20 @@ pub(crate) fn spins_little<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&So
 pub(crate) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftContact<T>) -> bool {
     let (force, strength) = (wrench.force(), length(&wrench.force()));
     move |contact| is_steady_under(&force, strength, contact, lever)
+}
+
+/// The contact of a closed form on a sphere or an ellipsoid, for a narrower type: `None` if the force presses by no more than
+/// rounding of the wrench's numbers there, which then says between which two points nothing tells.
+pub(crate) fn unless_grazing<T: Real>(
+    wrench: &Wrench<f64>,
+    found: Result<SoftContact<f64>, [Vector3<f64>; 2]>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    let force = wrench.force();
+    let least = 4.0 * T::EPSILON.to_f64() * length(&force);
+    match found {
+        Ok(contact) if !(-force.dot(&contact.normal) > least) => None,
+        found => Some(found.map_err(Search::Grazing)),
+    }
 }
 
 /// How a search ended, in the narrower type.

@@ -95,7 +95,12 @@ fn refined_on<T: Real>(
         solve::<Twofold<f64>, T>(load, patch_at, start)
     };
     match found {
-        Some(end) if (end.point - point).amax() <= allowed && f.dot(&end.normal) < 0.0 => {
+        // Nor does rounding lead over an edge, as from the side of a closed cylinder to its end.
+        Some(end)
+            if (end.point - point).amax() <= allowed
+                && f.dot(&end.normal) < 0.0
+                && end.flat == is_flat(patch) =>
+        {
             end.renews(contact, scale)
         }
         _ => *contact,
@@ -137,6 +142,12 @@ struct End {
     point: Vector3<f64>,
     normal: Vector3<f64>,
     spin: f64,
+    flat: bool,
+}
+
+/// Whether the surface is a plane there.
+fn is_flat(patch: &Patch) -> bool {
+    matches!(patch.surface, LocalSurface::Plane { .. })
 }
 
 impl End {
@@ -199,7 +210,8 @@ fn solve<W: Wide, T: Real>(
         // As far as digits of the result go; a step that grows no shorter is what rounding leaves.
         if size <= fine || (taken >= 4 && size <= 16.0 * fine && size + size >= before) {
             let normal = patch.seen(point).normal;
-            return Some(End { point: rounded(point), normal: rounded(normal), spin: spin.rounded() });
+            let (point, normal, spin) = (rounded(point), rounded(normal), spin.rounded());
+            return Some(End { point, normal, spin, flat: is_flat(&patch) });
         }
         before = size;
         patch = match leads {

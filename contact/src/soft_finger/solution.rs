@@ -139,6 +139,17 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         None
     }
 
+    /// The contact in double precision, for a narrower type, of a shape that has but one; `Err` says how the search
+    /// ended. `None`, as the default answers, says nothing.
+    ///
+    /// A pose asks for it before [`soft_contacts`](Self::soft_contacts): it would round the wrench.
+    #[doc(hidden)]
+    #[inline]
+    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        let _ = wrench;
+        None
+    }
+
     /// How the surface changes at one of its points, per unit of the shape's size of this number: its radii,
     /// semi-axes and lengths, counted from 0 in the order of its constructor. `None`, as the default answers, if
     /// there is no such size. (Moving and turning need no such knowledge:
@@ -181,6 +192,11 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         (**self).sole_soft_contact(push)
+    }
+
+    #[inline]
+    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        (**self).soft_contact_in_double(wrench)
     }
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
         (**self).sensitivity(size, point)

@@ -80,10 +80,12 @@ fn flat_angles_agree_with_double_precision() {
         let posed = Posed::new(single, pose);
         let moved = wrench.expressed_in(&pose);
         let (rotation, origin) = (pose.rotation().cast::<f64>(), pose.origin().cast::<f64>());
-        let back = rotation.try_inverse().unwrap();
+        // The points that the transpose takes to the shape.
+        let forth = rotation.transpose().try_inverse().unwrap();
         let load = wide(&moved);
         let foot = load.force().cross(&load.torque()) / load.force().norm_squared();
-        let inside = Wrench::from_force_at(&(back * (foot - origin)), back * load.force());
+        let inside = [foot - origin, load.force()].map(|v| rotation.tr_mul(&v));
+        let inside = Wrench::from_force_at(&inside[0], inside[1]);
         let (Some(found), Some(exact)) = (contact(&moved, &posed), contact(&inside, &double)) else {
             continue;
         };
@@ -91,7 +93,7 @@ fn flat_angles_agree_with_double_precision() {
         if incidence < 1e-3 {
             continue;
         }
-        let exact = Contact { point: rotation * exact.point + origin, ..exact };
+        let exact = Contact { point: forth * exact.point + origin, ..exact };
         let off = apart(&found, &exact, 0.02);
         assert!(off <= 2e-6, "posed: {off:e} at {incidence} {single:?} {wrench:?}");
     }

@@ -48,6 +48,12 @@ pub(crate) trait Exact {
         true
     }
 
+    /// How far off the frame is in which it is told \[m\].
+    #[allow(dead_code, reason = "the trials ask")]
+    fn aside(&self) -> f64 {
+        0.0
+    }
+
     /// The contact on an end, an edge or a tip, if the wrench has one there.
     fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
         let _ = (force, torque);

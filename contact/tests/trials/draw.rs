@@ -282,12 +282,26 @@ impl<T: Real> Drawn for Implicit<T, Quartic<T>> {
     }
 }
 
+/// A drawn shape somewhere else.
+fn posed<T: Real, S>(
+    random: &mut Random,
+    size: f64,
+    (surface, point, normal): (S, Vector3<f64>, Vector3<f64>),
+) -> (Posed<T, S>, Vector3<f64>, Vector3<f64>) {
+    let turn = random.direction() * random.uniform(0.0, 3.0);
+    let pose = RigidTransform::from_axis_angle(vector::<T>(turn), vector(aside(random, size))).unwrap();
+    let (rotation, origin) = (pose.rotation().map(Real::to_f64), pose.origin().map(Real::to_f64));
+    (Posed::new(surface, pose), rotation * point + origin, (rotation * normal).normalize())
+}
+
 impl<T: Real, S: Drawn + Clone> Drawn for Posed<T, S> {
     fn draw(random: &mut Random, size: f64) -> (Self, Vector3<f64>, Vector3<f64>) {
-        let (surface, point, normal) = S::draw(random, size);
-        let turn = random.direction() * random.uniform(0.0, 3.0);
-        let pose = RigidTransform::from_axis_angle(vector::<T>(turn), vector(aside(random, size))).unwrap();
-        let (rotation, origin) = (pose.rotation().map(Real::to_f64), pose.origin().map(Real::to_f64));
-        (Self::new(surface, pose), rotation * point + origin, (rotation * normal).normalize())
+        let drawn = S::draw(random, size);
+        posed(random, size, drawn)
+    }
+
+    fn draw_edge(random: &mut Random, size: f64) -> Option<(Self, Vector3<f64>, Vector3<f64>)> {
+        let drawn = S::draw_edge(random, size)?;
+        Some(posed(random, size, drawn))
     }
 }

@@ -7,8 +7,8 @@ use fingertip_surfaces::{
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use crate::big::{Big, Big3};
-use crate::exact::{Exact, length, minus, number, plus, unit, wide};
+use crate::big::{Big, Big3, cross, dot};
+use crate::exact::{Exact, length, minus, number, plus, times, unit, wide};
 
 /// Of a level function: its value over the length of its gradient.
 fn of_level(value: Big, gradient: &Big3) -> (Big, Big3) {
@@ -136,23 +136,59 @@ impl<T: Real> Exact for Implicit<T, Quartic<T>> {
     }
 }
 
+/// The columns of the rotation of a pose, their cross products (which are those of the inverse's transpose, times the
+/// determinant), the determinant, and the origin.
+struct Pose {
+    columns: [Big3; 3],
+    across: [Big3; 3],
+    determinant: Big,
+    origin: Big3,
+}
+
+impl Pose {
+    fn of<T: Real, S>(posed: &Posed<T, S>) -> Self {
+        let pose = posed.sensor_from_shape();
+        let columns = [0, 1, 2].map(|k| wide(&pose.rotation().column(k).into_owned()));
+        let across = [0, 1, 2].map(|k| cross(&columns[(k + 1) % 3], &columns[(k + 2) % 3]));
+        let determinant = dot(&columns[0], &across[0]);
+        Self { columns, across, determinant, origin: wide(&pose.origin()) }
+    }
+
+    fn inside(&self, point: &Big3) -> Big3 {
+        let away = minus(point, &self.origin);
+        [0, 1, 2].map(|k| dot(&self.columns[k], &away))
+    }
+}
+
+fn combined(vectors: &[Big3; 3], shares: &Big3) -> Big3 {
+    let part = |k: usize| times(&vectors[k], &shares[k]);
+    plus(&plus(&part(0), &part(1)), &part(2))
+}
+
 /// The shape of the points that the transpose of the rotation takes to the shape within.
 impl<T: Real, S: Exact> Exact for Posed<T, S> {
     fn height_and_normal(&self, point: &Big3) -> (Big, Big3) {
-        let pose = self.sensor_from_shape();
-        let rotation = pose.rotation();
-        let columns = [0, 1, 2].map(|k| wide(&rotation.column(k).into_owned()));
-        let away = minus(point, &wide(&pose.origin()));
-        let inside = [0, 1, 2].map(|k| crate::big::dot(&columns[k], &away));
-        let (height, normal) = self.inner().height_and_normal(&inside);
-        let mut turned = crate::big::big3([0.0; 3]);
-        for k in 0..3 {
-            turned = plus(&turned, &crate::exact::times(&columns[k], &normal[k]));
-        }
-        (height, unit(&turned))
+        let pose = Pose::of(self);
+        let (height, normal) = self.inner().height_and_normal(&pose.inside(point));
+        (height, unit(&combined(&pose.columns, &normal)))
     }
 
-    fn holds(&self, _: &Big3) -> bool {
-        true
+    fn aside(&self) -> f64 {
+        self.sensor_from_shape().origin().map(Real::to_f64).norm()
+    }
+
+    fn holds(&self, point: &Big3) -> bool {
+        self.inner().holds(&Pose::of(self).inside(point))
+    }
+
+    /// Of the wrench that has its contact there: `Rᵀf`, and the inverse of `R` times its determinant for the torque.
+    fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
+        let pose = Pose::of(self);
+        let about = minus(torque, &cross(&pose.origin, force));
+        let [f, m] = [(&pose.columns, force), (&pose.across, &about)]
+            .map(|(rows, v)| [0, 1, 2].map(|k| dot(&rows[k], v)));
+        let inside = self.inner().elsewhere(&f, &m)?;
+        let turned = combined(&pose.across, &inside);
+        Some(plus(&pose.origin, &[0, 1, 2].map(|k| &turned[k] / &pose.determinant)))
     }
 }

@@ -196,7 +196,8 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
 
     /// Of point, normal and spin torque, in units of the goal.
     fn errors(&self, load: &Load, truth: &Truth, found: &Contact<T>) -> [f64; 3] {
-        let far = length(&truth.point).to_f64() + self.size;
+        // Numbers of a pose are rounded where they are, though places of shape and frame may cancel.
+        let far = length(&truth.point).to_f64() + self.size + self.surface.aside();
         let mut point = distance(&found.point, &truth.point) / far;
         if truth.normal.is_none() {
             // Along an edge a contact answers to the torque by as much as the spin torque is smaller than the force.

@@ -164,6 +164,14 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> Shortcuts<T> for Compoun
             self.second.shortcuts().entry_in_double(line, near)
         }
     }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        if self.is_of_first(&near.map(T::literal), None) {
+            self.first.shortcuts().posed_entry_in_double(line, near)
+        } else {
+            self.second.shortcuts().posed_entry_in_double(line, near)
+        }
+    }
 }
 
 /// That of the part whose surface is nearer; on the seam, that of either.

@@ -2,6 +2,7 @@
 
 pub(crate) mod closest;
 pub(crate) mod ellipse;
+pub mod fine_pose;
 pub(crate) mod interval;
 pub(crate) mod powers;
 pub mod quadratic;

@@ -3,6 +3,7 @@
 use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use crate::numeric::vectors::wide;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Frustum, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -51,6 +52,14 @@ impl<T: Real> CappedCylinder<T> {
     #[doc(hidden)]
     pub const fn solid(&self) -> &Frustum<T> {
         &self.solid
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<CappedCylinder<f64>> {
+        let [radius, half] = [self.radius(), self.half_length].map(Real::to_f64);
+        CappedCylinder::new(wide(&self.centre), wide(&self.axis()), radius, half).ok()
     }
 
     /// The middle \[m\].

@@ -7,7 +7,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
-use crate::numeric::vectors::{any_perpendicular, length, unit_or};
+use crate::numeric::vectors::{any_perpendicular, length, unit_or, wide};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -83,6 +84,14 @@ impl<T: Real> Capsule<T> {
     #[must_use]
     pub const fn radius(&self) -> T {
         self.radius
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Capsule<f64>> {
+        let [radius, half] = [self.radius, self.half_length].map(Real::to_f64);
+        Capsule::new(wide(&self.centre()), wide(&self.axis()), radius, half).ok()
     }
 
     /// The vector to a point from the point of the segment closest to it.
@@ -174,6 +183,10 @@ impl<T: Real> Shortcuts<T> for Capsule<T> {
         }
         let end = self.half_length.copysign(height);
         self.axis.outside_ball_by(point, end, self.radius)
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 

@@ -6,9 +6,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::Twofold;
-use crate::numeric::vectors::{any_perpendicular, foot, is_finite, length, unit_or};
+use crate::numeric::vectors::{any_perpendicular, foot, is_finite, length, unit_or, wide};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
     Shortcuts, SmoothSurface, Topology,
@@ -85,6 +86,14 @@ impl<T: Real> Cone<T> {
     /// [`BadShape`] unless it is a positive finite length.
     pub fn with_depth(self, depth: T) -> Result<Self, BadShape> {
         Ok(Self { depth: Some(BadShape::check_length("cone", "depth", depth)?), ..self })
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Cone<f64>> {
+        let double = Cone::new(wide(&self.apex()), wide(&self.axis()), self.half_angle.to_f64()).ok()?;
+        self.depth.map_or(Some(double), |depth| double.with_depth(depth.to_f64()).ok())
     }
 
     /// Apex \[m\].
@@ -214,6 +223,10 @@ impl<T: Real> Shortcuts<T> for Cone<T> {
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         let taper = Twofold::difference(-self.tangent, self.tangent_rest);
         self.axis.outside_cone_by(point, T::zero(), taper, self.cosine)
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 

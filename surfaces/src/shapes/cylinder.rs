@@ -4,7 +4,8 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix3, Vector3};
 
 use super::axis::Axis;
-use crate::numeric::vectors::{hypotenuse, is_finite, length};
+use crate::numeric::vectors::{hypotenuse, is_finite, length, wide};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, Shortcuts,
     SmoothSurface, Topology,
@@ -92,6 +93,14 @@ impl<T: Real> Cylinder<T> {
     #[must_use]
     pub const fn half_length(&self) -> Option<T> {
         self.half_length
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Cylinder<f64>> {
+        let double = Cylinder::new(wide(&self.centre), wide(&self.axis), self.radius.to_f64()).ok()?;
+        self.half_length.map_or(Some(double), |half| double.with_half_length(half.to_f64()).ok())
     }
 
     #[inline]
@@ -202,6 +211,10 @@ impl<T: Real> Shortcuts<T> for Cylinder<T> {
 
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         self.around().outside_by(point, self.radius)
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 

@@ -5,7 +5,8 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::twofold::{Twofold, dot};
-use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or};
+use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or, wide};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -78,6 +79,13 @@ impl<T: Real> Ellipsoid<T> {
     #[must_use]
     pub const fn semi_axes(&self) -> Vector3<T> {
         self.semi_axes
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Ellipsoid<f64>> {
+        Ellipsoid::new(wide(&self.semi_axes)).ok()
     }
 
     /// Their reciprocals \[1/m\].
@@ -223,6 +231,10 @@ impl<T: Real> Shortcuts<T> for Ellipsoid<T> {
         let excess = dot(scaled, scaled).minus(Twofold::new(T::one())).value();
         let gradient = point.component_mul(&self.curvatures).component_mul(&self.curvatures);
         excess / (length(&gradient) * T::literal(2.0))
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 

@@ -10,6 +10,7 @@ use crate::numeric::ellipse::closest_point;
 use crate::numeric::interval::{End, Inside};
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or, within_range};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, Shortcuts,
     SmoothSurface, Topology,
@@ -95,6 +96,18 @@ impl<T: Real> EllipticCylinder<T> {
     #[must_use]
     pub const fn ends(&self) -> CylinderEnds<T> {
         self.ends
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<EllipticCylinder<f64>> {
+        let ends = match self.ends {
+            CylinderEnds::Unbounded => CylinderEnds::Unbounded,
+            CylinderEnds::Open(half) => CylinderEnds::Open(half.to_f64()),
+            CylinderEnds::Capped(half) => CylinderEnds::Capped(half.to_f64()),
+        };
+        EllipticCylinder::new(self.semi_axes.map(Real::to_f64), ends).ok()
     }
 
     #[inline]
@@ -258,6 +271,10 @@ impl<T: Real> Shortcuts<T> for EllipticCylinder<T> {
             }
             _ => side,
         }
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 

@@ -9,7 +9,8 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::{Twofold, difference};
-use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or};
+use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or, wide};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
     Shortcuts, SignedDistance, SmoothSurface, Topology,
@@ -99,6 +100,14 @@ impl<T: Real> Frustum<T> {
             taper,
             side_cosine,
         })
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Frustum<f64>> {
+        let [base, top, height] = [self.base_radius, self.top_radius, self.height].map(Real::to_f64);
+        Frustum::new(wide(&self.base_centre()), wide(&self.axis()), base, top, height).ok()
     }
 
     /// Centre of the base \[m\].
@@ -246,6 +255,10 @@ impl<T: Real> Shortcuts<T> for Frustum<T> {
         let over_top = height.minus(Twofold::new(self.height)).value();
         let end = over_top.max(-height.value());
         if end.abs() < side.abs() { end } else { side }
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 

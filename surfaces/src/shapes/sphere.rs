@@ -4,7 +4,8 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::twofold::{difference, outside_ball};
-use crate::numeric::vectors::{larger, largest, length, smaller, unit_or};
+use crate::numeric::vectors::{larger, largest, length, smaller, unit_or, wide};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, ForceParts,
     Level, Shortcuts, SignedDistance, SmoothSurface, Topology,
@@ -55,6 +56,13 @@ impl<T: Real> Sphere<T> {
     /// [`BadShape`] unless the radius is a positive finite length.
     pub fn centred(radius: T) -> Result<Self, BadShape> {
         Self::new(Vector3::zeros(), radius)
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Sphere<f64>> {
+        Sphere::new(wide(&self.centre), self.radius.to_f64()).ok()
     }
 
     /// Centre in the sensor frame \[m\].
@@ -172,6 +180,10 @@ impl<T: Real> Shortcuts<T> for Sphere<T> {
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         let from_centre = difference(&(point * self.scale), &(self.centre * self.scale));
         outside_ball(from_centre, self.radius * self.scale) / self.scale
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 
