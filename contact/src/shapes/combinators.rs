@@ -54,30 +54,26 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
             return moved(self, wrench, last, visit);
         }
         let (force, torque) = (wide(&wrench.force()), wide(&wrench.torque()));
-        match self.soft_contact_in_double(&Wrench::on_fingertip(force, torque)) {
+        let ended = match self.soft_contact_in_double(&Wrench::on_fingertip(force, torque)) {
             Some(Ok(contact)) => {
                 visit(narrow(&contact));
-                Search::Complete
+                return Search::Complete;
             }
-            Some(Err(pair @ Search::Grazing(_))) => in_type(pair),
-            // There is none; whether rounding could make one is for the narrower type to say.
-            Some(Err(Search::Complete)) => {
-                let mut any = false;
-                let search = moved(self, wrench, last, |_| any = true);
-                if any { Search::Incomplete } else { search }
-            }
-            Some(Err(Search::Incomplete | Search::Uncertified)) => {
-                let mut any = false;
-                let search = moved(self, wrench, last, |contact| {
-                    any = true;
-                    visit(contact);
-                });
-                // A pure force either hits or misses, though it is none any more once it is moved.
-                let told = any || !is_pure_force(&wrench.force(), &wrench.torque());
-                if told { search } else { Search::Complete }
-            }
-            None => moved(self, wrench, last, visit),
+            Some(Err(pair @ Search::Grazing(_))) => return in_type(pair),
+            Some(Err(ended)) => ended,
+            None => return moved(self, wrench, last, visit),
+        };
+        // A pure force either hits or misses, though it is none any more once it is moved.
+        if is_pure_force(&wrench.force(), &wrench.torque()) {
+            return Search::Complete;
         }
+        if ended != Search::Complete {
+            return moved(self, wrench, last, visit);
+        }
+        // There is none; whether rounding could make one is for the narrower type to say.
+        let mut any = false;
+        let search = moved(self, wrench, last, |_| any = true);
+        if any { Search::Incomplete } else { search }
     }
 
     #[inline]
