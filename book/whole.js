@@ -1,20 +1,29 @@
-// A browser ends a line after a hyphen: after the dashes of `--option`, and within `1e-16`. Here these stay whole.
-const WHOLE = /(--[a-z][a-z0-9-]*|\d[\d.]*e-\d+)/;
-for (const place of document.querySelectorAll("main code, main td, main th")) {
+// A browser ends a line after a hyphen: after the dashes of `--option`, and within `1e-16` and `lbf-in`. Here these stay
+// whole. A path, which it takes for one word, may end a line after a slash.
+const WHOLE = /(--[a-z][a-z0-9-]*|\d[\d.]*e-\d+|\b[a-z]{1,3}f-[a-z]{1,2}\b)/;
+
+/** What stands between: text, with places to end a line. */
+function breakable(text, isCode) {
+  if (!isCode) return [text];
+  return text.split(/(?<=\/)(?=\w)/).flatMap((part, index) => (index === 0 ? [part] : [document.createElement("wbr"), part]));
+}
+
+for (const place of document.querySelectorAll("main :not(pre) > code, main pre > code.said, main td, main th")) {
   const texts = document.createTreeWalker(place, NodeFilter.SHOW_TEXT);
   const found = [];
   while (texts.nextNode()) {
     const text = texts.currentNode;
-    if (WHOLE.test(text.data) && !text.parentElement.classList.contains("whole")) found.push(text);
+    if (!text.parentElement.closest(".whole") && (WHOLE.test(text.data) || text.data.includes("/"))) found.push(text);
   }
   for (const text of found) {
+    const isCode = text.parentElement.closest("code") !== null;
     // Every second part is one that the expression found.
-    const parts = text.data.split(WHOLE).map((part, index) => {
-      if (index % 2 === 0) return part;
+    const parts = text.data.split(WHOLE).flatMap((part, index) => {
+      if (index % 2 === 0) return breakable(part, isCode);
       const whole = document.createElement("span");
       whole.className = "whole";
       whole.textContent = part;
-      return whole;
+      return [whole];
     });
     text.replaceWith(...parts);
   }
