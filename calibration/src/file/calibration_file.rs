@@ -60,8 +60,8 @@ pub struct CalibrationFile {
     /// Least and greatest reading that a gauge can give; beyond them it is saturated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
-    /// Second-order terms of a sensor that is not linear: see [`CalibrationFile::load`]. One row
-    /// per axis, one column per pair of gauges (0,0), (0,1), … (0,N−1), (1,1), ….
+    /// Second-order terms of a sensor that is not linear: what each product of two signals adds to the load, in nominal
+    /// loads. One row per axis, one column per pair of gauges (0,0), (0,1), … (0,N−1), (1,1), ….
     #[serde(default, skip_serializing_if = "Option::is_none", with = "rows::optional")]
     pub quadratic: Option<DMatrix<f64>>,
     /// Other terms of higher order, chosen ones, beside or instead of those.

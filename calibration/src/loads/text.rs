@@ -12,18 +12,18 @@ impl LoadTable {
     /// Reads CSV with a header, and the names of the columns that it ignored.
     ///
     /// # The header
-    /// Names are those of recordings ([`ColumnName`](fingertip_recordings::ColumnName)), with a unit; columns with the
-    /// name of another sensor in front are ignored.
+    /// Columns are named as those of recordings, with a unit; columns with the name of another sensor in front are
+    /// ignored.
     ///
     /// | column | meaning |
     /// |---|---|
-    /// | `fx_N` `fy_N` `fz_N` `tx_Nm` `ty_Nm` `tz_Nm` | the known load on the sensor about its origin; also `mx_…`; units as in [`crate::units`]: `mN`, `gf`, `lbf`, `Nmm`, `lbfin`, … |
+    /// | `fx_N` `fy_N` `fz_N` `tx_Nm` `ty_Nm` `tz_Nm` | the known load on the sensor about its origin; also `mx_…`; in other units too: `mN`, `gf`, `lbf`, `Nmm`, `lbf-in`, … |
     /// | `v1_V` … `vN_V` | the readings, numbered from 1; units `V`, `mV`, `count`, `mVpV` (mV/V), `strain`; a force or torque unit for a sensor that gives these already |
     /// | `case` | any text; samples with the same text are one load case, left out together in cross-validation (without this column: samples with the same load) |
     /// | `group` | any text; samples of one mounting, which share a zero |
     /// | `name` | what reports call the sample |
     /// | `t_s` (or `t_ms` …), `temperature_C`, `weight` | time, temperature, weight |
-    /// | `qx`, `qy`, `qz`, `qw` | orientation of the sensor (or its flange) in the base frame, for what hangs on it: see [`carrying`](Self::carrying) |
+    /// | `qx`, `qy`, `qz`, `qw` | orientation of the sensor (or its flange) in the base frame, along which the weight of what hangs on it is added to the loads (`calibrate --payload`) |
     ///
     /// An axis without column is taken as not measured, unless `axes` asks for it, which then is an
     /// error.

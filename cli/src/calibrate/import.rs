@@ -26,8 +26,9 @@ pub(crate) enum Way {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A plain matrix says neither which way it goes nor its units, so they must be said. It has no zero either: tare before
-use (fingertip tare). A .cal, or TOML written by hand without a checksum, says what it is.
+A plain matrix says neither which way it goes nor its units, so they must be said. It has no zero
+either: tare before use (fingertip tare). A .cal, or TOML written by hand without a checksum,
+says what it is.
 
   fingertip import matrix.npy --matrix load-per-signal --signal V --force N --torque Nmm --full-scale 30,0.3 -o tip.toml")]
 pub(crate) struct ImportArguments {

@@ -27,8 +27,8 @@ CSV holds one row for each time, MCAP one message for each sensor and time:
   v1_V …                             /fingertip/signals, fingertip_msgs/msg/Signals
   dummy_V                            /fingertip/dummy, the same
   contact_x_m … contact_spin_z_Nm    /fingertip/contact, tactile_msgs/msg/TactileContact
-A sensor NAME (columns NAME_fx_N …) has the topics /fingertip/NAME/wrench and so on. Whatever the other
-format cannot hold is counted and named at the end.")]
+A sensor NAME (columns NAME_fx_N …) has the topics /fingertip/NAME/wrench and so on. Whatever the
+other format cannot hold is counted and named at the end.")]
 pub(crate) struct ConvertArguments {
     /// The recordings to read: .csv or .mcap; `-` is the standard input
     #[arg(value_name = "IN", required = true)]

@@ -25,8 +25,9 @@ pub(crate) use words::{seen, seen_in_loads};
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Best is a recording of some seconds in which the sensor rests: that tells its noise, drift and lines. One with
-loads tells which channels are dead, stuck or clipped. Exit code 1: readings are wrong.")]
+Best is a recording of some seconds in which the sensor rests: that tells its noise, drift and
+lines. One with loads tells which channels are dead, stuck or clipped. Exit code 1: readings are
+wrong.")]
 pub(crate) struct HealthArguments {
     /// The recording: .csv or .mcap; `-` is the standard input. Of several, each writes files of its own: RUN.csv with
     /// --html page.html writes RUN.page.html

@@ -1,5 +1,5 @@
-//! The least grip where numbers are tiny, huge, subnormal, NaN, infinite, parallel, singular or at one point; in both
-//! precisions; and again from the last solution.
+//! The least grip where numbers are tiny, huge, subnormal, NaN, infinite, parallel, singular or at one point; and in both
+//! precisions.
 
 use fingertip_friction::{Coulomb, SoftFingerLimit, UncertainCoulomb};
 use fingertip_hand::{
@@ -12,8 +12,7 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use crate::support::clarabel_oracle::{self, Oracle};
-use crate::support::{Place, Problem, TestHand, narrow, places, problem, vector};
+use crate::support::{Place, TestHand, narrow, places, vector};
 
 fn two<T: Real>(soft: bool, friction: f64, half: T) -> Grasp<T, 2, TestHand> {
     let at = |side: T| {
@@ -279,73 +278,6 @@ fn single_precision_agrees() {
     }
     println!("{both} held by both, {undecided} undecided in f32, {disagree} differ; costs by {worst:.1e}");
     assert!(both > 700 && disagree <= 2 && undecided <= 20);
-}
-
-/// Starting from the last solution changes nothing but the number of steps.
-#[test]
-fn warm_starts_agree_with_cold_ones() {
-    let mut rng = Pcg64Mcg::seed_from_u64(32);
-    let (mut warm_steps, mut cold_steps, mut samples) = (0, 0, 0);
-    for _ in 0..60 {
-        let Problem { grasp, limits, load } = problem::<5>(&mut rng);
-        let mut warm = LeastGrip::new();
-        let mut load = load;
-        let mut places = grasp.contacts().map(|c| c.map(|c| (c.place(), c.normal())));
-        for _ in 0..40 {
-            // As in a sample of 1 ms; now and then a jump.
-            let jump = if rng.random_range(0..15) == 0 { 30.0 } else { 1.0 };
-            load =
-                load + Wrench::on_fingertip(vector(&mut rng) * 0.02 * jump, vector(&mut rng) * 1e-4 * jump);
-            for (point, normal) in places.iter_mut().flatten() {
-                *point += vector(&mut rng) * 2e-5 * jump;
-                *normal += vector(&mut rng) * 1e-3 * jump;
-            }
-            let mut contacts = [None; 5];
-            for ((contact, place), old) in contacts.iter_mut().zip(&places).zip(grasp.contacts()) {
-                if let (Some((point, normal)), Some(old)) = (place, old) {
-                    *contact = GraspContact::soft(*point, *normal, old.friction(), old.arm().max(1e-3)).ok();
-                }
-            }
-            let grasp = Grasp::new(contacts);
-            let again = warm.solve(&grasp, &limits, &load);
-            let fresh = LeastGrip::new().solve(&grasp, &limits, &load);
-            match (again, fresh) {
-                (GripOutcome::Held(a), GripOutcome::Held(b)) => {
-                    assert!((a.cost / b.cost - 1.0).abs() < 1e-6, "{} {}", a.cost, b.cost);
-                    warm_steps += a.steps;
-                    cold_steps += b.steps;
-                    samples += 1;
-                }
-                (GripOutcome::CannotHold(_), GripOutcome::CannotHold(_)) => {}
-                other => panic!("{other:?}"),
-            }
-        }
-    }
-    println!("{samples} samples: {warm_steps} steps warm, {cold_steps} cold");
-    assert!(samples > 800 && warm_steps * 3 < cold_steps * 2);
-}
-
-/// A finger more or less, another load, no load: what was remembered does not matter.
-#[test]
-fn what_was_remembered_never_matters() {
-    let mut rng = Pcg64Mcg::seed_from_u64(33);
-    let mut one = LeastGrip::new();
-    for _ in 0..500 {
-        let mut problem = problem::<4>(&mut rng);
-        problem.load = problem.load * 10.0_f64.powf(rng.random_range(-3.0..3.0));
-        let (again, fresh) = (
-            one.solve(&problem.grasp, &problem.limits, &problem.load),
-            LeastGrip::new().solve(&problem.grasp, &problem.limits, &problem.load),
-        );
-        match (again, fresh) {
-            (GripOutcome::Held(a), GripOutcome::Held(b)) => assert!((a.cost / b.cost - 1.0).abs() < 1e-6),
-            (GripOutcome::CannotHold(_), GripOutcome::CannotHold(_)) => {}
-            other => match clarabel_oracle::solve(&problem.grasp, &problem.limits, &problem.load) {
-                Oracle::Unclear => {}
-                oracle => panic!("{other:?} {oracle:?}"),
-            },
-        }
-    }
 }
 
 fn finite_or_said<T: Real, F: Frame>(found: &GripOutcome<T, 3, F>) -> bool {

@@ -16,3 +16,4 @@ mod precision;
 mod quality;
 mod reaction;
 mod stored;
+mod warm_starts;

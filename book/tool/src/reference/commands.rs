@@ -50,15 +50,15 @@ pub(super) fn page() -> Result<String, Failure> {
     let help = said(&["--help"])?;
     let mut text = format!(
         "# The command\n\nWith all its bridges, which a build has that asks for them: \
-         `cargo install --path cli --features web,foxglove,ros2`.\n\n```text\n{help}\n```\n"
+         `cargo install --path cli --features web,foxglove,ros2`.\n\n```text,help\n{help}\n```\n"
     );
     for name in commands_in(&help) {
         let own = said(&[name, "--help"])?;
-        let _ = write!(text, "\n## `fingertip {name}`\n\n```text\n{own}\n```\n");
+        let _ = write!(text, "\n## `fingertip {name}`\n\n```text,help\n{own}\n```\n");
         for below in commands_in(&own) {
             let _ = write!(
                 text,
-                "\n### `fingertip {name} {below}`\n\n```text\n{}\n```\n",
+                "\n### `fingertip {name} {below}`\n\n```text,help\n{}\n```\n",
                 said(&[name, below, "--help"])?
             );
         }

@@ -142,9 +142,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     page.table(&table);
     page.data("scenes", &table);
     let short = format!(
-        "{said}\n\n{}\nEach mark of the diagram is a shape with a contact model, as [the table of \
-         footprints](../reference/footprint.md) has it; what whole scenes take on the microcontroller is counted by [its \
-         firmware](../../../examples/cortex-m4/README.md).\n",
+        "{said}\n\n{}\nEach mark of the diagram is a row of [the table of footprints](../reference/footprint.md): a shape \
+         with a contact model. Whole scenes on a microcontroller: [its firmware](../../../examples/cortex-m4/README.md).\n",
         table.markdown()
     );
     Ok((title.to_owned(), short))
