@@ -29,7 +29,7 @@
   const verdict = () => last && last.slip ? slips[recent() ? "slipping" : last.slip] : "–";
   const state = () => !last ? "nothing yet" : last.contact ? "contact" : about.has_scene ? `no contact: ${reasons[last.status] || last.status}` : "no scene";
   const sentence = () => {
-    if (!last || source.health !== "running" || !about.has_scene) return health()[1];
+    if (!last || health()[1] !== "live" || !about.has_scene) return health()[1];
     if (!last.contact) return state();
     return `Contact at ${fixed(last.contact.point, 1e3, 1)} mm, pressed with ${number(last.contact.normal_force, "N", 2)}${last.slip ? ", " + verdict() : ""}`;
   };
@@ -86,7 +86,8 @@
   };
   const head = () => {
     const [kind, word] = health(), light = by("light");
-    const slipping = recent() && source.health === "running";
+    // What was felt last says nothing of now once nothing comes.
+    const slipping = word === "live" && recent();
     light.className = "light " + (slipping ? "bad" : kind);
     light.textContent = slipping ? "slipping" : word;
     by("source").textContent = about.source || "";

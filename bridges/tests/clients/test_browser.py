@@ -142,8 +142,11 @@ def test_the_page_shows_what_is_felt_and_commands(live, tmp_path):
         await tab.value(f"{watch}; document.getElementById('live-tare').click()")
         await tab.until("lights.some(light => light.startsWith('taking the zero'))")
         await tab.until("['live', 'slipping'].includes(document.getElementById('live-light')?.textContent)")
+        # Amid a slip, which the page must not go on showing.
+        await tab.until("document.getElementById('live-light').textContent === 'slipping'")
         one.kill()
         await tab.until("document.getElementById('live-light')?.textContent === 'not connected'")
+        await tab.until("document.getElementById('live-said').textContent === 'not connected'")
         # And started anew: the page finds it.
         live(*arguments).line(r"Command: +(\S+)")
         await tab.until("['live', 'slipping'].includes(document.getElementById('live-light')?.textContent)")
