@@ -66,13 +66,11 @@ impl Cell {
         cells.filter(|cell| cell.count > 0).collect()
     }
 
-    /// Takes a reading; `share` is one of so many as there would be with none missing, for all channels at once.
-    pub(super) fn add(&mut self, reading: f64, (samples, share): (u32, f64)) {
+    pub(super) fn add(&mut self, reading: f64) {
         self.count += 1;
-        let share = if self.count == samples { share } else { f64::from(self.count).recip() };
         // Welford 1962.
         let off = reading - self.mean;
-        self.mean += off * share;
+        self.mean += off / f64::from(self.count);
         self.squares += off * (reading - self.mean);
         self.least = if reading < self.least { reading } else { self.least };
         self.greatest = if reading > self.greatest { reading } else { self.greatest };
@@ -161,7 +159,7 @@ mod tests {
         let readings: Vec<f64> = (0..64).map(|i| 1e6 + f64::from(i * 7919 % 101)).collect();
         let of = |readings: &[f64]| {
             let mut cell = Cell::default();
-            readings.iter().zip(1..).for_each(|(reading, n)| cell.add(*reading, (n, f64::from(n).recip())));
+            readings.iter().for_each(|reading| cell.add(*reading));
             cell
         };
         let (mut joined, whole) = (of(&readings[..32]), of(&readings));

@@ -80,11 +80,9 @@ impl Trace {
         }
         // Differences of single readings are taken within a block.
         let compares = self.allan.is_none() && self.current.samples > 0;
-        let samples = self.current.samples + 1;
-        let share = (samples, f64::from(samples).recip());
         for ((cell, last), reading) in self.current.cells.iter_mut().zip(&mut self.last).zip(readings) {
             if reading.is_finite() {
-                cell.add(*reading, share);
+                cell.add(*reading);
                 if last.is_finite() {
                     let change = *reading - *last;
                     cell.jump.add(self.samples, change);
