@@ -10,7 +10,7 @@ use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::soft_finger::closed_form::is_pure_force;
-use crate::soft_finger::double::{in_type, narrow};
+use crate::soft_finger::double::{in_type, narrow, widened};
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
 /// The contacts of a posed shape by those of the shape, under the wrench in its frame.
@@ -53,8 +53,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         if T::CARRIES_MORE || T::EPSILON.to_f64() <= f64::EPSILON {
             return moved(self, wrench, last, visit);
         }
-        let (force, torque) = (wide(&wrench.force()), wide(&wrench.torque()));
-        let ended = match self.soft_contact_in_double(&Wrench::on_fingertip(force, torque)) {
+        let ended = match self.soft_contact_in_double(&widened(wrench)) {
             Some(Ok(contact)) => {
                 visit(narrow(&contact));
                 return Search::Complete;

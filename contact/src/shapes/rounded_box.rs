@@ -28,7 +28,7 @@ fn rounded_box_in_double<T: Real>(
     wrench: &Wrench<f64>,
     last: Option<&Vector3<f64>>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    let double = RoundedBox::new(wide(&shape.half_extents()), shape.rounding().to_f64()).ok()?;
+    let double = shape.in_double()?;
     let mut found = None;
     let search = newton_soft_contacts(&double, wrench, last, |contact| found = Some(contact));
     Some(found.ok_or(search))

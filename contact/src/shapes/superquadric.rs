@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use crate::model::flat;
 use crate::soft_finger::closed_form::soft_finger;
-use crate::soft_finger::double::{in_type, is_steady, narrow};
+use crate::soft_finger::double::{in_type, is_steady, narrow, widened};
 use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{Search, SoftContact, newton_soft_contacts};
 
@@ -58,11 +58,9 @@ fn search_finely<T: Real>(
         visit(contact);
         return ended;
     }
-    let exponents = shape.exponents().map(Real::to_f64);
-    let Ok(double) = Superquadric::new(wide(&shape.semi_axes()), exponents) else { return ended };
-    let wrench = Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()));
+    let Some(double) = shape.in_double() else { return ended };
     let last = last.map(wide);
-    in_type(search(&double, &wrench, last.as_ref(), &mut |contact| visit(narrow(&contact))))
+    in_type(search(&double, &widened(wrench), last.as_ref(), &mut |contact| visit(narrow(&contact))))
 }
 
 /// The contact of a force that presses steeply, by Newton's method on the surface.
@@ -241,10 +239,7 @@ soft_finger!(
     sole | shape,
     push | quickly(shape, push),
     patch | shape,
-    _ | {
-        let double = Superquadric::new(wide(&shape.semi_axes()), shape.exponents().map(Real::to_f64));
-        double.ok().map(LocalSurface::Superquadric)
-    },
+    _ | shape.in_double().map(LocalSurface::Superquadric),
     // The three semi-axes (its exponents are chosen, not measured). As for any level function of `x/a`:
     // `∂S/∂a_i = −g_i x_i/a_i`, `∂g/∂a_i = −(g_i + x_i H) e_i/a_i`.
     sizes | shape,

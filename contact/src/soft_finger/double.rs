@@ -18,7 +18,7 @@ pub(crate) fn finely<T: Real>(
     if T::EPSILON.to_f64() <= f64::EPSILON || found.as_ref().is_ok_and(is_steady) {
         return found;
     }
-    match again(&Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()))) {
+    match again(&widened(wrench)) {
         Some(Ok(contact)) => Ok(narrow(&contact)),
         Some(Err(pair @ Search::Grazing(_))) => Err(in_type(pair)),
         // There is none; what the rounding of the wrench could make of it is for the narrower type to say.
@@ -52,6 +52,11 @@ pub(crate) fn unless_grazing<T: Real>(
         Ok(contact) if !(-force.dot(&contact.normal) > least) => None,
         found => Some(found.map_err(Search::Grazing)),
     }
+}
+
+/// A wrench in double precision.
+pub(crate) fn widened<T: Real>(wrench: &Wrench<T>) -> Wrench<f64> {
+    Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()))
 }
 
 /// How a search ended, in the narrower type.

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
 use crate::numeric::twofold::{Twofold, outside_ball};
-use crate::numeric::vectors::{foot, length, unit_or};
+use crate::numeric::vectors::{foot, length, unit_or, wide};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -60,6 +60,13 @@ impl<T: Real> RoundedBox<T> {
     #[must_use]
     pub const fn half_extents(&self) -> Vector3<T> {
         self.half_extents
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<RoundedBox<f64>> {
+        RoundedBox::new(wide(&self.half_extents), self.rounding.to_f64()).ok()
     }
 
     /// Radius of the edges \[m\].

@@ -96,6 +96,13 @@ impl<T: Real> Superquadric<T> {
         })
     }
 
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Superquadric<f64>> {
+        Superquadric::new(wide(&self.semi_axes), self.exponents.map(Real::to_f64)).ok()
+    }
+
     /// The semi-axes \[m\].
     #[inline]
     #[must_use]

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::superquadric::Superquadric;
 use super::superquadric_gauge::Gauge;
-use crate::numeric::vectors::{larger, wide};
+use crate::numeric::vectors::larger;
 use crate::{Entry, ForceLine};
 
 /// Steps from a start that is near, and from one that may be near tangency.
@@ -53,7 +53,7 @@ pub(super) fn finely<T: Real>(
     line: &Line<f64>,
     near: &Vector3<f64>,
 ) -> Option<[Vector3<f64>; 2]> {
-    let shape = Superquadric::new(wide(&shape.semi_axes), shape.exponents.map(Real::to_f64)).ok()?;
+    let shape = shape.in_double()?;
     let scaled = Scaled::new(&line.point, &line.direction, &shape.curvatures);
     let start = (near.component_mul(&shape.curvatures) - scaled.foot).dot(&scaled.direction) / scaled.squared;
     let arrival = scaled.arrive(&shape, start, f64::EPSILON.root(), STEPS)?;

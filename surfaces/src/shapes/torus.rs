@@ -49,6 +49,13 @@ impl<T: Real> Torus<T> {
         Ok(Self { ring_radius, tube_radius })
     }
 
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Torus<f64>> {
+        Torus::new(self.ring_radius.to_f64(), self.tube_radius.to_f64()).ok()
+    }
+
     /// Radius of the circle in the middle of the tube \[m\].
     #[inline]
     #[must_use]

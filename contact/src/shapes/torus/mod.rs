@@ -5,7 +5,7 @@ mod ring;
 mod spheres;
 mod zeros;
 
-use fingertip_surfaces::numeric::vectors::{larger, largest, unit_or, wide};
+use fingertip_surfaces::numeric::vectors::{larger, largest, unit_or};
 use fingertip_surfaces::{ActiveSurface, LocalSurface, SmoothSurface, Torus};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -14,7 +14,7 @@ use self::ring::{Ring, Touch};
 use self::spheres::Around;
 use self::zeros::{Doubts, MOST};
 use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger};
-use crate::soft_finger::double::{in_type, narrow};
+use crate::soft_finger::double::{in_type, narrow, widened};
 use crate::soft_finger::newton::Problem;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
@@ -173,11 +173,9 @@ fn in_double<T: Real>(
     wrench: &Wrench<T>,
     visit: &mut dyn FnMut(SoftContact<T>),
 ) -> Search<T> {
-    let double = Torus::new(torus.ring_radius().to_f64(), torus.tube_radius().to_f64());
-    let Ok(double) = double else { return Search::Incomplete };
-    let wrench = Wrench::on_fingertip(wide(&wrench.force()), wide(&wrench.torque()));
+    let Some(double) = torus.in_double() else { return Search::Incomplete };
     let epsilon = T::EPSILON.to_f64();
-    in_type(search(&double, &wrench, epsilon, &mut |contact| visit(narrow(&contact))))
+    in_type(search(&double, &widened(wrench), epsilon, &mut |contact| visit(narrow(&contact))))
 }
 
 /// Whether `τ²κ + (f·n)²` is nearly nothing for the size of its parts.
@@ -216,6 +214,7 @@ fn of_torus<T: Real>(shape: &Torus<T>, point: &Vector3<T>) -> [GeometrySensitivi
 
 #[cfg(test)]
 mod tests {
+    use fingertip_surfaces::numeric::vectors::wide;
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
 
@@ -330,7 +329,7 @@ mod tests {
             let single = Torus::new(torus.ring_radius() as f32, torus.tube_radius() as f32).unwrap();
             let narrow = Wrench::on_fingertip(wrench.force().cast::<f32>(), wrench.torque().cast::<f32>());
             let torus = Torus::new(single.ring_radius().into(), single.tube_radius().into()).unwrap();
-            let wrench = Wrench::on_fingertip(wide(&narrow.force()), wide(&narrow.torque()));
+            let wrench = widened(&narrow);
             // Single precision may take a wrench for a pure force, or not, where it is one nearly.
             if is_pure_force_of(&wrench.force(), &wrench.torque(), 4.0 * f64::from(f32::EPSILON)) {
                 continue;
