@@ -3,7 +3,7 @@
 use fingertip_surfaces::LocalSurface;
 use fingertip_surfaces::numeric::twofold::Wide;
 use fingertip_wrench::RigidTransform;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::patch::{Digits, Seen, Three, Way, dot, exactly, plus_times, rounded};
 use super::three::unit;
@@ -44,12 +44,19 @@ impl From<LocalSurface> for Patch {
 
 /// `Rᵀ v`.
 fn turned_back<W: Wide>(pose: &RigidTransform<f64>, v: Three<W>) -> Three<W> {
-    [0, 1, 2].map(|k| dot(exactly(&pose.rotation().column(k).into_owned()), v))
+    rows(&pose.rotation().transpose(), v)
 }
 
 /// `R v`.
 fn turned_out<W: Wide>(pose: &RigidTransform<f64>, v: Three<W>) -> Three<W> {
-    [0, 1, 2].map(|k| dot(exactly(&pose.rotation().row(k).transpose()), v))
+    rows(&pose.rotation(), v)
+}
+
+/// `M v`. By the names of the entries: an index would be checked while it runs, where a compiler makes small code.
+fn rows<W: Wide>(matrix: &Matrix3<f64>, v: Three<W>) -> Three<W> {
+    let m = matrix;
+    let row = |x: f64, y: f64, z: f64| dot([W::exactly(x), W::exactly(y), W::exactly(z)], v);
+    [row(m.m11, m.m12, m.m13), row(m.m21, m.m22, m.m23), row(m.m31, m.m32, m.m33)]
 }
 
 impl Digits for Patch {
