@@ -7,8 +7,8 @@ use fingertip_recordings::RecordingError;
 use fingertip_scene::SceneError;
 use thiserror::Error;
 
-use crate::output::{is_standard, shown};
 use crate::sensor::SensorError;
+use crate::standard::{is_standard, shown};
 
 /// Why a run stopped.
 #[derive(Debug, Error)]

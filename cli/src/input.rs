@@ -9,8 +9,8 @@ use fingertip_recordings::{ReaderOptions, RecordingReader};
 use tempfile::NamedTempFile;
 
 use crate::error::CliError;
-use crate::output::{is_standard, shown};
 use crate::recording_file::{Kind, mcap};
+use crate::standard::{is_standard, shown};
 use crate::verbosity::detail;
 
 /// How an MCAP file begins.

@@ -40,6 +40,7 @@ mod serve;
 mod several;
 mod shell;
 mod span;
+mod standard;
 mod stop;
 mod summary;
 mod table;

@@ -11,7 +11,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::calibrate::files::{bad, open, read_loads};
 use crate::error::CliError;
-use crate::output::{Outputs, Overwrite, shown};
+use crate::output::{Outputs, Overwrite};
+use crate::standard::shown;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Without arms, three components are found, up to one rotation of all of them; with \

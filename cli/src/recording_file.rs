@@ -9,7 +9,7 @@ use fingertip_recordings::mcap::{Compression, McapError};
 use fingertip_recordings::{RecordingError, SignalUnit};
 
 use crate::error::CliError;
-use crate::output::{is_standard, shown};
+use crate::standard::{is_standard, shown};
 use crate::table::count;
 
 /// Name of the frame in MCAP files.

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::CliError;
-use crate::output::{is_standard, printable, shown};
+use crate::output::printable;
+use crate::standard::{is_standard, shown};
 
 /// Does the same with each recording and its own files. One that is bad does not keep the others from being done: what
 /// is wrong is said at once, and at the end how many were.

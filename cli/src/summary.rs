@@ -7,7 +7,7 @@ use fingertip_recordings::Quality;
 use fingertip_scene::{Limit, Scene};
 
 use crate::observe::{Observations, Quantiles, Status};
-use crate::output::name_of;
+use crate::standard::name_of;
 use crate::table::{Table, count, number, number_or_dash, percent, short};
 
 /// The result of a run, to be read by a human.

@@ -11,7 +11,8 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::scene::{PyScene, document};
+use crate::scene::PyScene;
+use crate::sections::document;
 use crate::{enums, errors, numbers, value};
 
 /// A scene of a flat fingertip with some sections, to check them as scenes are checked.

@@ -28,6 +28,7 @@ mod recording;
 mod rest;
 mod rolling;
 mod scene;
+mod sections;
 mod simulation;
 mod surface;
 mod table;

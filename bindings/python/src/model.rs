@@ -15,7 +15,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::contact::{PyContact, resolution};
-use crate::scene::{PyScene, document};
+use crate::scene::PyScene;
+use crate::sections::document;
 use crate::surface::PySurface;
 use crate::{errors, numbers, value};
 

@@ -7,10 +7,10 @@ use fingertip_scene::{Scene, SceneError, SceneProblem, registry};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use pythonize::depythonize;
 
 use crate::errors;
 use crate::numbers;
+use crate::sections::document;
 use crate::surface::PySurface;
 
 /// A file that takes the place of a section, with what stands in it: a scene that is pickled finds it anywhere.
@@ -342,16 +342,4 @@ impl PyScene {
     fn __repr__(&self) -> String {
         format!("<fingertip.Scene {:?}: {}>", self.scene.name(), self.scene.meaning().join("; "))
     }
-}
-
-/// Sections as the text of a file.
-pub(crate) fn document(sections: &Bound<'_, PyDict>) -> PyResult<String> {
-    let mut table: toml::Table =
-        depythonize(sections).map_err(|error| errors::scene(format!("the sections are no TOML: {error}")))?;
-    table.entry("version").or_insert_with(|| i64::from(fingertip_scene::VERSION).into());
-    let input = table.entry("input").or_insert_with(|| toml::Table::new().into());
-    if let Some(input) = input.as_table_mut() {
-        input.entry("convention").or_insert_with(|| "on_fingertip".into());
-    }
-    toml::to_string(&table).map_err(errors::scene)
 }

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::numbers;
-use crate::scene::PyScene;
+use crate::sections::{self, document};
 use crate::{errors, value};
 
 /// The part of a fingertip that may touch: any shape that a scene can have, by the same keys.
@@ -37,6 +37,10 @@ pub(crate) struct PySurface {
 impl PySurface {
     pub(crate) fn of_scene(surface: DynSurface<f64>, scene: &str) -> Self {
         Self { surface, scene: scene.to_owned() }
+    }
+
+    fn of_text(scene: String) -> PyResult<Self> {
+        Ok(Self { surface: sections::scene(&scene)?.surface().clone(), scene })
     }
 
     pub(crate) const fn surface(&self) -> &DynSurface<f64> {
@@ -79,8 +83,7 @@ impl PySurface {
         let section = parameters.map_or_else(|| Ok(PyDict::new(py)), Bound::copy)?;
         section.set_item("shape", shape)?;
         sections.set_item("surface", section)?;
-        let scene = PyScene::from_text(crate::scene::document(&sections)?)?;
-        Ok(Self { surface: scene.scene().surface().clone(), scene: scene.text().to_owned() })
+        Self::of_text(document(&sections)?)
     }
 
     /// A shape that a function of Python describes: see `formula`.
@@ -222,8 +225,7 @@ impl PySurface {
     #[staticmethod]
     fn _from_bytes(bytes: &[u8]) -> PyResult<Self> {
         let text: String = value::from_bytes(bytes)?;
-        let scene = PyScene::from_text(text)?;
-        Ok(Self { surface: scene.scene().surface().clone(), scene: scene.text().to_owned() })
+        Self::of_text(text)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<value::Reduced<'py>> {

@@ -7,8 +7,9 @@ use fingertip_scene::Scene;
 
 use super::args::AnalyzeArguments;
 use crate::error::CliError;
-use crate::output::{Outputs, is_standard};
+use crate::output::Outputs;
 use crate::several::file_of;
+use crate::standard::is_standard;
 
 /// The files that one recording writes.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::source::Source;
 use crate::observe::{Observations, Quantiles, Status};
-use crate::output::shown;
+use crate::standard::shown;
 
 /// What there is to tell.
 pub(super) struct Told<'a> {

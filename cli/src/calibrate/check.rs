@@ -7,8 +7,9 @@ use super::args::CheckArguments;
 use super::files::{bad, read_calibration, read_loads, read_payload, write_reports};
 use super::limits;
 use crate::error::CliError;
-use crate::output::{Outputs, shown};
+use crate::output::Outputs;
 use crate::progress::working;
+use crate::standard::shown;
 
 /// An error if the calibration does not hold.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<(), CliError> {

@@ -9,8 +9,9 @@ use fingertip_calibration::loads::{Columns, LoadReader, LoadTable};
 use fingertip_calibration::report::Report;
 
 use crate::error::CliError;
-use crate::output::{Outputs, is_standard, shown};
+use crate::output::Outputs;
 use crate::progress::bar;
+use crate::standard::{is_standard, shown};
 use crate::verbosity::detail;
 
 /// What is wrong with a table, in an error that names its file.

@@ -10,7 +10,8 @@ use nalgebra::Vector3;
 use super::args::{CalibrateArguments, SensorAxis};
 use super::files::{bad, open};
 use crate::error::CliError;
-use crate::output::{Outputs, shown};
+use crate::output::Outputs;
+use crate::standard::shown;
 
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 

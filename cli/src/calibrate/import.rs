@@ -10,7 +10,8 @@ use fingertip_calibration::units::{ForceUnit, TorqueUnit};
 
 use super::files::{bytes, read_calibration};
 use crate::error::CliError;
-use crate::output::{Outputs, Overwrite, is_standard, shown};
+use crate::output::{Outputs, Overwrite};
+use crate::standard::{is_standard, shown};
 
 /// How a file of NumPy begins.
 const NPY: &[u8] = b"\x93NUMPY";

@@ -10,7 +10,8 @@ use super::args::CalibrateArguments;
 use super::files::bad;
 use crate::error::CliError;
 use crate::opened::Opened;
-use crate::output::{Outputs, shown};
+use crate::output::Outputs;
+use crate::standard::shown;
 
 pub(super) fn run(path: &Path, arguments: &CalibrateArguments) -> Result<(), CliError> {
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from("payload.toml"));

@@ -21,8 +21,9 @@ use fingertip_calibration::model::{Direction, Limits, Method, Options};
 
 use crate::error::CliError;
 use crate::health::{of_table, seen_in_loads};
-use crate::output::{Outputs, shown};
+use crate::output::Outputs;
 use crate::progress::working;
+use crate::standard::shown;
 use args::{CalibrateArguments, CurvatureChoice, FitMethod};
 use files::{bad, read_calibration, read_payload, write_reports};
 

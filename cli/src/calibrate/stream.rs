@@ -11,7 +11,8 @@ use super::args::{CalibrateArguments, FitMethod};
 use super::files::{bad, of_reading, open};
 use super::{limits, range, refuse_bad, write_calibration};
 use crate::error::CliError;
-use crate::output::{Outputs, is_standard};
+use crate::output::Outputs;
+use crate::standard::is_standard;
 use crate::table::count;
 
 /// Reads the files twice: to fit, and to see what the fit leaves.

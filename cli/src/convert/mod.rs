@@ -14,10 +14,11 @@ pub(crate) use from_mcap::McapAsCsv;
 
 use crate::error::CliError;
 use crate::input::Input;
-use crate::output::{Outputs, Overwrite, is_standard, read_once, shown};
+use crate::output::{Outputs, Overwrite, read_once};
 use crate::recording_file::{FRAME, Kind, Packing};
 use crate::several;
 use crate::span::Span;
+use crate::standard::{is_standard, shown};
 use crate::table::count;
 
 #[derive(Debug, Args)]

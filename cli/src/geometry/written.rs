@@ -7,8 +7,9 @@ use toml_edit::{DocumentMut, Item, Table, Value};
 use super::{FittedShape, GeometryArguments};
 use crate::calibrate::files::{bad, text};
 use crate::error::CliError;
-use crate::output::{Outputs, is_standard};
+use crate::output::Outputs;
 use crate::scene;
+use crate::standard::is_standard;
 
 /// A scene as it is written, comments included.
 pub(super) struct Known {

@@ -4,9 +4,9 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::standard::is_standard;
 use super::whole::already_there;
 use crate::error::CliError;
+use crate::standard::is_standard;
 
 /// A file or a folder, by device and number: links to it are the same.
 #[cfg(unix)]

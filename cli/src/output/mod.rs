@@ -2,7 +2,6 @@
 
 mod guard;
 mod printable;
-mod standard;
 mod unfinished;
 mod whole;
 
@@ -15,11 +14,11 @@ use clap::Args;
 
 pub(crate) use guard::read_once;
 pub(crate) use printable::printable;
-pub(crate) use standard::{is_standard, name_of, shown};
 pub(crate) use unfinished::remove_all as remove_unfinished;
 pub(crate) use whole::Whole;
 
 use crate::error::CliError;
+use crate::standard::is_standard;
 use crate::verbosity::is_quiet;
 use guard::Taken;
 

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use fingertip_calibration::file::{Existing, WholeFile};
 
-use super::standard::is_standard;
 use super::unfinished::Unfinished;
 use crate::error::CliError;
+use crate::standard::is_standard;
 use crate::verbosity::detail;
 
 /// A file that takes its place when it is [finished](Self::finish), and is taken away by an interruption; `-` is the standard

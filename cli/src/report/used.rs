@@ -5,7 +5,7 @@ use std::path::Path;
 use fingertip_calibration::file::CalibrationFile;
 use fingertip_scene::Scene;
 
-use crate::output::name_of;
+use crate::standard::name_of;
 use crate::table::{Table, count, short};
 
 /// What the command line gave beside the scene, and what came of it.

@@ -9,8 +9,9 @@ use fingertip_scene::{Scene, VERSION};
 
 use super::{load, load_or_simulated};
 use crate::error::CliError;
-use crate::output::{self, Outputs, Overwrite, shown};
+use crate::output::{self, Outputs, Overwrite};
 use crate::report;
+use crate::standard::shown;
 
 /// What to do with scenes.
 #[derive(Debug, Args)]

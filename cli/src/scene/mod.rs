@@ -12,8 +12,9 @@ pub(crate) use simulated::least_static_coefficient;
 
 use crate::calibrate::files::{bad, text};
 use crate::error::CliError;
-use crate::output::{is_standard, printable, shown};
+use crate::output::printable;
 use crate::progress::working;
+use crate::standard::{is_standard, shown};
 use crate::verbosity::{detail, is_quiet};
 
 /// Checks the text of a scene that came by the standard input, whose files are looked for where the command runs.

@@ -12,7 +12,7 @@ use rand_pcg::Pcg64Mcg;
 use super::args::{Scenario, SimulateArguments};
 use crate::calibrate::files::text;
 use crate::error::CliError;
-use crate::output::shown;
+use crate::standard::shown;
 
 /// Torque noise per force noise \[m\]: what a small six-axis sensor has.
 const NOISE_ARM: f64 = 5e-3;

@@ -66,22 +66,40 @@ impl Cell {
         cells.filter(|cell| cell.count > 0).collect()
     }
 
-    pub(super) fn add(&mut self, reading: f64) {
-        self.count += 1;
-        // Welford 1962.
-        let off = reading - self.mean;
-        self.mean += off / f64::from(self.count);
-        self.squares += off * (reading - self.mean);
-        self.least = if reading < self.least { reading } else { self.least };
-        self.greatest = if reading > self.greatest { reading } else { self.greatest };
+    /// Takes finite readings that follow each other, but not what they change by.
+    pub(super) fn add(&mut self, readings: &[f64]) {
+        let Some(first) = readings.first() else { return };
+        let [least, greatest] = extremes(readings);
+        self.least = if least < self.least { least } else { self.least };
+        self.greatest = if greatest > self.greatest { greatest } else { self.greatest };
+        let count = readings.len() as f64;
+        let mean = first + sum(readings, |reading| reading - first) / count;
+        let squares = sum(readings, |reading| (reading - mean) * (reading - mean));
+        self.merge(u32::try_from(readings.len()).unwrap_or(u32::MAX), mean, squares);
     }
 
-    /// Takes a change from reading to reading for the Allan variance of single readings.
-    pub(super) fn add_change(&mut self, change: f64) {
-        if let Some((sum, pairs)) = self.allan.first_mut() {
-            *sum += change * change;
-            *pairs += 1;
+    /// Takes the changes between finite readings that follow each other, of which the first has this number; for the Allan
+    /// variance of single readings, too, if they are `compared`.
+    pub(super) fn add_changes(&mut self, at: u64, readings: &[f64], compared: bool) {
+        let (largest, squares) = changes(readings);
+        // Seldom, once many are known.
+        if largest > self.jump.second {
+            let pairs = readings.iter().zip(readings.iter().skip(1));
+            (at + 1..).zip(pairs).for_each(|(at, (before, reading))| self.jump.add(at, reading - before));
         }
+        if let Some((sum, pairs)) = self.allan.first_mut().filter(|_| compared) {
+            *sum += squares;
+            *pairs += u32::try_from(readings.len().saturating_sub(1)).unwrap_or(u32::MAX);
+        }
+    }
+
+    /// Takes so many readings, by their mean and the sum of squares off it (Chan, Golub & LeVeque 1979).
+    fn merge(&mut self, count: u32, mean: f64, squares: f64) {
+        let (n, m) = (f64::from(self.count), f64::from(count));
+        let change = mean - self.mean;
+        self.squares += squares + change * change * (n * m / (n + m));
+        self.mean += change * (m / (n + m));
+        self.count += count;
     }
 
     /// Variance of a reading about the mean; `None` for fewer than two.
@@ -109,15 +127,67 @@ impl Cell {
             *sum += more;
             *pairs += more_pairs;
         }
-        // Chan, Golub & LeVeque 1979.
-        let (n, m) = (f64::from(self.count), f64::from(next.count));
-        self.squares += next.squares + change * change * (n * m / (n + m));
-        self.mean += change * (m / (n + m));
-        self.count += next.count;
+        self.merge(next.count, next.mean, next.squares);
         self.least = self.least.min(next.least);
         self.greatest = self.greatest.max(next.greatest);
         self.jump.join(&next.jump);
     }
+}
+
+// In fours, of which none waits for another.
+
+/// The sum of what is made of each reading.
+#[inline(always)]
+fn sum(readings: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+    let (fours, rest) = readings.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for four in fours {
+        for (sum, reading) in sums.iter_mut().zip(four) {
+            *sum += of(*reading);
+        }
+    }
+    let rest: f64 = rest.iter().map(|reading| of(*reading)).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Whether all of them are.
+pub(super) fn are_finite(readings: &[f64]) -> bool {
+    sum(readings, |reading| reading * 0.0) == 0.0
+}
+
+/// The least and the greatest of finite readings.
+fn extremes(readings: &[f64]) -> [f64; 2] {
+    let (fours, rest) = readings.as_chunks::<4>();
+    let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+    for four in fours {
+        for ((least, greatest), reading) in least.iter_mut().zip(&mut greatest).zip(four) {
+            *least = if *reading < *least { *reading } else { *least };
+            *greatest = if *reading > *greatest { *reading } else { *greatest };
+        }
+    }
+    let of_all =
+        |some: [f64; 4], pick: fn(f64, f64) -> f64| some.iter().chain(rest).copied().fold(some[0], pick);
+    [of_all(least, f64::min), of_all(greatest, f64::max)]
+}
+
+/// The largest change from a reading to the next, without its sign, and the sum of the squares of all.
+fn changes(readings: &[f64]) -> (f64, f64) {
+    let Some((_, next)) = readings.split_first() else { return (0.0, 0.0) };
+    let ((fours, _), (next_fours, rest)) = (readings.as_chunks::<4>(), next.as_chunks::<4>());
+    let (mut largest, mut squares) = ([0.0_f64; 4], [0.0; 4]);
+    for (four, next) in fours.iter().zip(next_fours) {
+        for (((largest, squares), before), reading) in
+            largest.iter_mut().zip(&mut squares).zip(four).zip(next)
+        {
+            let change = reading - before;
+            *largest = if change.abs() > *largest { change.abs() } else { *largest };
+            *squares += change * change;
+        }
+    }
+    let before = readings.iter().rev().skip(1);
+    let of_rest = || rest.iter().rev().zip(before.clone()).map(|(reading, before)| reading - before);
+    let largest = largest.into_iter().chain(of_rest().map(f64::abs)).fold(0.0, f64::max);
+    (largest, squares.iter().sum::<f64>() + of_rest().map(|change| change * change).sum::<f64>())
 }
 
 /// Readings of all channels that follow each other.
@@ -159,7 +229,7 @@ mod tests {
         let readings: Vec<f64> = (0..64).map(|i| 1e6 + f64::from(i * 7919 % 101)).collect();
         let of = |readings: &[f64]| {
             let mut cell = Cell::default();
-            readings.iter().for_each(|reading| cell.add(*reading));
+            cell.add(readings);
             cell
         };
         let (mut joined, whole) = (of(&readings[..32]), of(&readings));

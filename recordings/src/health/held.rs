@@ -2,6 +2,8 @@
 
 use fingertip_wrench::{ChannelFault, ChannelLimits, ChannelMonitor};
 
+use super::watch::is_change;
+
 /// A stretch over which a channel is at fault.
 ///
 /// ```
@@ -60,6 +62,8 @@ pub(super) struct HeldWatch {
 impl HeldWatch {
     /// So many stretches are kept.
     const MOST: usize = 16;
+    /// So many readings are looked at together: few enough that mostly none of them needs a second look.
+    const GLANCE: usize = 16;
 
     pub(super) fn new(limits: ChannelLimits<f64>) -> Self {
         let monitor = ChannelMonitor::new(limits);
@@ -75,8 +79,26 @@ impl HeldWatch {
         self.goes_on = false;
     }
 
+    /// Looks at readings that follow each other: when they came, the one before them and they themselves, how many channels
+    /// change with each, and how long a sample lasts \[s\].
+    pub(super) fn look(&mut self, times: &[f64], column: &[f64], changes: &[u32], pace: f64) {
+        let Some((_, readings)) = column.split_first() else { return };
+        let parts = readings.chunks(Self::GLANCE).zip(column.chunks(Self::GLANCE));
+        let parts = parts.zip(times.chunks(Self::GLANCE)).zip(changes.chunks(Self::GLANCE));
+        for (((readings, before), times), changes) in parts {
+            if self.monitor.update_sound(readings) {
+                self.goes_on = false;
+                continue;
+            }
+            for (((time, reading), before), count) in times.iter().zip(readings).zip(before).zip(changes) {
+                let own = u32::from(is_change(*reading, *before));
+                self.add(*time, *reading, *count > own, pace);
+            }
+        }
+    }
+
     /// Takes a reading, and how long a sample lasts \[s\].
-    pub(super) fn add(&mut self, time: f64, reading: f64, others_change: bool, pace: f64) {
+    fn add(&mut self, time: f64, reading: f64, others_change: bool, pace: f64) {
         let fault = match self.monitor.update(reading, others_change) {
             None => return self.goes_on = false,
             Some(ChannelFault::NotFinite) => {

@@ -33,6 +33,7 @@ mod lines;
 #[cfg(test)]
 mod made;
 mod noise;
+mod pending;
 mod report;
 mod rest;
 mod sensor_judge;

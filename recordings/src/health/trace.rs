@@ -1,8 +1,23 @@
 //! A recording in blocks of equal length, of which there are never more than a fixed number.
 
+use core::ops::Range;
+
 use fingertip_wrench::AllanVariance;
 
-use super::block::{Block, OCTAVES};
+use super::block::{Block, OCTAVES, are_finite};
+use super::pending::Pending;
+
+/// The sum of products of the changes of two channels, from the reading before theirs on; what is not finite is left out.
+fn product_of_changes(first: (f64, &[f64]), second: (f64, &[f64])) -> f64 {
+    let ((mut before, readings), (mut other_before, others)) = (first, second);
+    let mut sum = 0.0;
+    for (reading, other) in readings.iter().zip(others) {
+        let both = (reading - before) * (other - other_before);
+        sum += if both.is_finite() { both } else { 0.0 };
+        (before, other_before) = (*reading, *other);
+    }
+    sum
+}
 
 /// The blocks of a recording. When there are too many, neighbours are joined, and blocks are twice as long from then on.
 #[derive(Clone, Debug)]
@@ -63,38 +78,59 @@ impl Trace {
         self.allan.iter_mut().flatten().for_each(AllanVariance::interrupt);
     }
 
-    /// Takes a sample; what is not finite is left out.
-    pub(super) fn add(&mut self, time: f64, readings: &[f64]) {
-        if self.current.samples == 0 {
+    /// Takes samples that follow each other; what is not finite is left out.
+    pub(super) fn look(&mut self, samples: &Pending) {
+        let mut times = samples.times();
+        while let Some(first) = times.first() {
+            let room = (self.length() - self.current.samples) as usize;
+            let from = samples.times().len() - times.len();
+            self.look_within(*first, samples, from..from + room.min(times.len()));
+            times = times.get(room..).unwrap_or_default();
+        }
+    }
+
+    /// Takes those of them in this range, all of one block; the first came at this time.
+    fn look_within(&mut self, time: f64, samples: &Pending, range: Range<usize>) {
+        let count = u32::try_from(range.len()).unwrap_or(u32::MAX);
+        let readings = |channel: usize| samples.readings(channel).and_then(|all| all.get(range.clone()));
+        let is_first = self.current.samples == 0;
+        if is_first {
             (self.current.start, self.current.time) = (self.samples, time);
         }
         for (product, (i, j)) in self.current.products.iter_mut().zip(&self.pairs) {
-            let change = |k: usize| Some(readings.get(k)? - self.last.get(k)?);
-            if let (Some(a), Some(b)) = (change(*i), change(*j)) {
-                let both = a * b;
-                *product += if both.is_finite() { both } else { 0.0 };
+            let of = |channel: usize| Some((*self.last.get(channel)?, readings(channel)?));
+            if let (Some(first), Some(second)) = (of(*i), of(*j)) {
+                *product += product_of_changes(first, second);
             }
         }
-        for (allan, reading) in self.allan.iter_mut().flatten().zip(readings) {
-            allan.add(*reading);
+        for (channel, allan) in self.allan.iter_mut().flatten().enumerate() {
+            readings(channel).unwrap_or_default().iter().for_each(|reading| allan.add(*reading));
         }
-        // Differences of single readings are taken within a block.
-        let compares = self.allan.is_none() && self.current.samples > 0;
-        for ((cell, last), reading) in self.current.cells.iter_mut().zip(&mut self.last).zip(readings) {
-            if reading.is_finite() {
-                cell.add(*reading);
-                if last.is_finite() {
-                    let change = *reading - *last;
-                    cell.jump.add(self.samples, change);
-                    if compares {
-                        cell.add_change(change);
-                    }
+        let compares = self.allan.is_none();
+        for (channel, (cell, last)) in self.current.cells.iter_mut().zip(&mut self.last).enumerate() {
+            let Some(readings) = readings(channel) else { continue };
+            let mut add = |at: u64, run: &[f64], last: f64| {
+                if let Some(first) = run.first().filter(|_| last.is_finite()) {
+                    // Differences of single readings are taken within a block.
+                    cell.add_changes(at.saturating_sub(1), &[last, *first], compares && !is_first);
+                }
+                cell.add(run);
+                cell.add_changes(at, run, compares);
+            };
+            if are_finite(readings) {
+                add(self.samples, readings, *last);
+            } else {
+                let (mut at, mut last) = (self.samples, *last);
+                for run in readings.split(|reading| !reading.is_finite()) {
+                    add(at, run, last);
+                    at += run.len() as u64 + 1;
+                    last = f64::NAN;
                 }
             }
-            *last = *reading;
+            *last = readings.last().copied().unwrap_or(*last);
         }
-        self.samples += 1;
-        self.current.samples += 1;
+        self.samples += u64::from(count);
+        self.current.samples += count;
         if self.current.samples == self.length() {
             self.end_block();
         }
@@ -135,8 +171,68 @@ impl Trace {
 }
 
 #[cfg(test)]
+impl Trace {
+    /// Takes one sample.
+    pub(super) fn add(&mut self, time: f64, readings: &[f64]) {
+        let mut sample = Pending::new(readings.len());
+        sample.push(time, readings);
+        self.look(&sample);
+    }
+}
+
+#[cfg(test)]
 mod tests {
-    use super::Trace;
+    use super::{Pending, Trace};
+    use rand::{RngExt, SeedableRng};
+
+    /// However many samples come together, what is kept of them is the same, but for the rounding of sums.
+    #[test]
+    fn together_is_as_one_by_one() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(5);
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (a.abs() + b.abs());
+        for depth in [Trace::new, Trace::brief] {
+            let pairs = vec![(0, 0), (0, 1)];
+            let (mut together, mut singly) = (depth(2, pairs.clone(), 64), depth(2, pairs, 64));
+            let mut count = 0_u32;
+            for piece in 0..400 {
+                let length = random.random_range(1..=64_u32);
+                let mut samples = Pending::new(2);
+                for time in (count..count + length).map(f64::from) {
+                    let mut reading = |odd: f64| {
+                        if random.random_bool(odd) { f64::NAN } else { 1e3 + random.random::<f64>() }
+                    };
+                    let readings = [reading(0.0), reading(0.05)];
+                    samples.push(time, &readings);
+                    singly.add(time, &readings);
+                }
+                together.look(&samples);
+                if piece % 50 == 49 {
+                    together.interrupt();
+                    singly.interrupt();
+                }
+                count += length;
+            }
+            assert!(together.blocks.len() == singly.blocks.len() && together.octave > 6);
+            for (one, other) in together.blocks.iter().zip(&singly.blocks) {
+                assert_eq!((one.start, one.time, one.samples), (other.start, other.time, other.samples));
+                assert!(one.products.iter().zip(&other.products).all(|(a, b)| near(*a, *b)));
+                for (one, other) in one.cells.iter().zip(&other.cells) {
+                    assert_eq!(
+                        (one.count, one.least, one.greatest),
+                        (other.count, other.least, other.greatest)
+                    );
+                    assert_eq!(one.jump, other.jump);
+                    assert!(
+                        near(one.mean, other.mean) && near(one.squares, other.squares),
+                        "{one:?} {other:?}"
+                    );
+                    for (a, b) in one.allan.iter().zip(&other.allan) {
+                        assert!(near(a.0, b.0) && a.1 == b.1);
+                    }
+                }
+            }
+        }
+    }
 
     /// A brief look knows of single readings what the whole one does, gaps and missing readings included.
     #[test]

@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::held::HeldWatch;
 use super::lines;
+use super::pending::Pending;
 use super::report::{ChannelHealth, Excursion, Health, Rate};
 use super::rest::{self, Quiet};
 use super::spectrum::{Mean, Spectra};
@@ -13,6 +14,12 @@ use crate::time_watch::Step;
 
 /// What a transform leaves of readings that are all the same, in their own size, and far more than that.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Whether a reading is another than the one before; NaN always is.
+pub(super) fn is_change(reading: f64, before: f64) -> bool {
+    let same = reading == before;
+    !same
+}
 
 /// How much is looked at.
 ///
@@ -68,7 +75,8 @@ pub struct HealthWatch {
     trace: Trace,
     held: Vec<HeldWatch>,
     spectra: Option<Spectra>,
-    last: Vec<f64>,
+    /// Samples that neither the trace nor `held` have seen: together they cost less than one by one.
+    pending: Pending,
     held_rows: u64,
     samples: u64,
 }
@@ -100,7 +108,7 @@ impl HealthWatch {
                 Depth::Brief => Trace::brief(count, pairs, Self::BLOCKS / 8),
             },
             spectra: (depth == Depth::Full).then(|| Spectra::new(count)),
-            last: vec![f64::NAN; count],
+            pending: Pending::new(count),
             held_rows: 0,
             samples: 0,
         }
@@ -128,29 +136,47 @@ impl HealthWatch {
             Some(Step::Gap(_)) => self.interrupt(),
             _ => {}
         }
-        let pace = self.pace();
-        let time = time.unwrap_or(self.samples as f64 * pace);
-        // Negated, so that NaN counts as a change.
-        let changes = |(reading, last): &(&f64, &f64)| !(*reading == *last);
-        let changed = readings.iter().zip(&self.last).filter(changes).count();
-        self.held_rows += u64::from(self.samples > 0 && changed == 0 && !readings.is_empty());
-        let channels = self.held.iter_mut().zip(readings).zip(&self.last);
-        for ((held, reading), last) in channels {
-            let others = changed - usize::from(!(*reading == *last));
-            held.add(time, *reading, others > 0, pace);
-        }
+        let time = time.unwrap_or(self.samples as f64 * self.pace());
         if let Some(spectra) = &mut self.spectra {
             spectra.add(self.samples, readings);
         }
-        self.trace.add(time, readings);
-        for (last, reading) in self.last.iter_mut().zip(readings) {
-            *last = *reading;
-        }
+        self.pending.push(time, readings);
         self.samples += 1;
+        if self.pending.is_full() {
+            self.look();
+        }
+    }
+
+    /// Looks at the samples that wait.
+    fn look(&mut self) {
+        if self.pending.is_empty() {
+            return;
+        }
+        let pace = self.pace();
+        let (times, pending) = (self.pending.times(), &self.pending);
+        // How many channels change with each sample.
+        let mut changes = [0_u32; Pending::MOST];
+        let changes = changes.get_mut(..times.len()).unwrap_or_default();
+        for column in pending.columns() {
+            for ((count, before), reading) in changes.iter_mut().zip(column).zip(column.iter().skip(1)) {
+                *count += u32::from(is_change(*reading, *before));
+            }
+        }
+        if !self.held.is_empty() {
+            // The first of all is no repetition.
+            let first = usize::from(self.samples == times.len() as u64);
+            self.held_rows += changes.iter().skip(first).filter(|count| **count == 0).count() as u64;
+        }
+        for (held, column) in self.held.iter_mut().zip(pending.columns()) {
+            held.look(times, column, changes, pace);
+        }
+        self.trace.look(pending);
+        self.pending.clear();
     }
 
     /// Readings are missing here.
     fn interrupt(&mut self) {
+        self.look();
         self.trace.interrupt();
         self.held.iter_mut().for_each(HeldWatch::interrupt);
         if let Some(spectra) = &mut self.spectra {
@@ -166,6 +192,11 @@ impl HealthWatch {
     /// What was seen so far. Costs some milliseconds; samples can be added thereafter.
     #[must_use]
     pub fn finish(&self) -> Health {
+        if !self.pending.is_empty() {
+            let mut whole = self.clone();
+            whole.look();
+            return whole.finish();
+        }
         let quiet: Vec<Quiet> = self
             .held
             .iter()

@@ -100,6 +100,55 @@ impl<T: Real> ChannelMonitor<T> {
         self.limits.fault(reading).or_else(|| self.stays(hold))
     }
 
+    /// Takes raw readings that follow each other, as [`update`](Self::update) would one by one, if it sees at a glance that
+    /// none of them is at fault: each is finite, within the linear range, and so far from the one before that it cannot
+    /// stay. `false`, and none is taken, where each has to be looked at. For recordings, in less than half the time.
+    ///
+    /// ```
+    /// use fingertip_wrench::{ChannelFault, ChannelLimits, ChannelMonitor};
+    ///
+    /// let mut monitor = ChannelMonitor::<f64>::new(ChannelLimits::none());
+    /// monitor.update(0.0, true);
+    /// monitor.update(0.001, true); // a step of the converter, for all that is known
+    /// assert!(monitor.update_sound(&[0.5, 0.3, 0.7]));
+    /// assert!(!monitor.update_sound(&[0.5, f64::NAN]));
+    /// assert_eq!(monitor.update(f64::NAN, true), Some(ChannelFault::NotFinite));
+    /// ```
+    #[must_use]
+    pub fn update_sound(&mut self, readings: &[T]) -> bool {
+        let Some((mut last, far)) = self.resolution.tells_up_to() else { return readings.is_empty() };
+        let (mut least, mut greatest, mut sound) = (T::GREATEST, -T::GREATEST, true);
+        for reading in readings {
+            let change = (*reading - last).abs();
+            // A NaN is neither.
+            sound &= (change > far) & (change <= T::GREATEST);
+            least = if *reading < least { *reading } else { least };
+            greatest = if *reading > greatest { *reading } else { greatest };
+            last = *reading;
+        }
+        if readings.is_empty() || !sound || self.limits.fault(least).or(self.limits.fault(greatest)).is_some()
+        {
+            return readings.is_empty();
+        }
+        let hold = self.hold();
+        let mut rest = readings;
+        while !rest.is_empty() {
+            let left = self.noise.left().min((Self::PERIOD - self.readings % Self::PERIOD) as usize);
+            let (taken, others) = rest.split_at(left.min(rest.len()));
+            self.resolution.add_far(taken);
+            self.noise.add_all(taken, hold);
+            self.readings = self.readings.saturating_add(u32::try_from(taken.len()).unwrap_or(u32::MAX));
+            if self.readings.is_multiple_of(Self::PERIOD) {
+                self.patience = self.patience();
+            }
+            rest = others;
+        }
+        self.least = if least < self.least { least } else { self.least };
+        self.greatest = if greatest > self.greatest { greatest } else { self.greatest };
+        (self.low, self.high, self.held, self.witnessed) = (last, last, 1, 0);
+        true
+    }
+
     /// Readings are missing here: what stayed before says nothing of what comes.
     pub fn interrupt(&mut self) {
         self.held = 0;

@@ -48,24 +48,43 @@ impl<T: Real> QuietNoise<T> {
 
     /// Takes a finite reading; changes within `hold` are none.
     pub(super) fn add(&mut self, reading: T, hold: T) {
-        if self.readings == 0 {
+        self.add_all(&[reading], hold);
+    }
+
+    /// Takes readings with which a block does not end before the last of them: so many are [`left`](Self::left).
+    pub(super) fn add_all(&mut self, readings: &[T], hold: T) {
+        let Some((first, others)) = readings.split_first() else { return };
+        let begins = self.readings == 0;
+        if begins {
             (self.squares, self.largest) = (T::zero(), T::zero());
-            (self.least, self.greatest) = (reading, reading);
-        } else {
-            let change = reading - self.last;
-            let square = change * change;
-            self.squares += square;
-            // Of finite readings. What is chosen by a value and not by a jump, which noise makes at random, costs least.
-            self.largest = if square > self.largest { square } else { self.largest };
-            self.least = if reading < self.least { reading } else { self.least };
-            self.greatest = if reading > self.greatest { reading } else { self.greatest };
+            (self.least, self.greatest, self.last) = (*first, *first, *first);
         }
-        self.last = reading;
-        self.readings += 1;
-        if self.readings == Self::BLOCK {
+        for reading in if begins { others } else { readings } {
+            self.compare(*reading);
+        }
+        self.readings += u32::try_from(readings.len()).unwrap_or(Self::BLOCK);
+        if self.readings >= Self::BLOCK {
             self.readings = 0;
             self.end_block(hold);
         }
+    }
+
+    /// How many readings are left until a block ends.
+    pub(super) const fn left(&self) -> usize {
+        (Self::BLOCK - self.readings) as usize
+    }
+
+    /// With the reading before, in the same block.
+    #[inline(always)]
+    fn compare(&mut self, reading: T) {
+        let change = reading - self.last;
+        let square = change * change;
+        self.squares += square;
+        // Of finite readings. What is chosen by a value and not by a jump, which noise makes at random, costs least.
+        self.largest = if square > self.largest { square } else { self.largest };
+        self.least = if reading < self.least { reading } else { self.least };
+        self.greatest = if reading > self.greatest { reading } else { self.greatest };
+        self.last = reading;
     }
 
     /// A block that was begun is forgotten.

@@ -79,6 +79,19 @@ impl<T: Real> Resolution<T> {
         }
     }
 
+    /// The last reading, and a change from reading to reading beyond which it is of more steps than tell the step; `None`
+    /// before there was any change.
+    pub(super) fn tells_up_to(&self) -> Option<(T, T)> {
+        let last = self.last.filter(|_| self.singles > 0)?;
+        Some((last, self.step * T::literal(Self::SMALL + 1.0)))
+    }
+
+    /// Takes readings that are each farther than that from the one before.
+    pub(super) fn add_far(&mut self, readings: &[T]) {
+        self.last = readings.last().copied().or(self.last);
+        self.changes = self.changes.saturating_add(u32::try_from(readings.len()).unwrap_or(u32::MAX));
+    }
+
     /// The step; `None` while too few small changes are known, or if they are no multiples of one: the channel's
     /// steps do not show in its noise.
     #[must_use]

@@ -144,3 +144,56 @@ fn any_readings_are_taken() {
         monitor.update(f32::from_bits(bits), i.is_multiple_of(3));
     }
 }
+
+/// At a glance is as one by one, to the last bit, whatever comes: faults, gaps, NaN, and blocks that end anywhere.
+#[test]
+fn what_is_sound_at_a_glance_is_as_one_by_one() {
+    fn check<T: Real>() {
+        let mut random = generator(23);
+        let mut glances = 0;
+        for trial in 0..200_u32 {
+            // From a noise of less than a step to one of thousands.
+            let noise = 10.0_f64.powf(f64::from(trial % 50) * 0.1 - 1.0);
+            let limits = if trial % 3 == 0 {
+                ChannelLimits::new(T::literal(-0.25 * noise), T::literal(0.25 * noise)).unwrap()
+            } else {
+                ChannelLimits::none()
+            };
+            let (mut at_once, mut singly) =
+                (ChannelMonitor::<T>::new(limits), ChannelMonitor::<T>::new(limits));
+            for piece in 0..60_usize {
+                let length = [1, 7, 32, 64][(trial as usize + piece) % 4];
+                let readings: Vec<T> = (0..length)
+                    .map(|_| {
+                        let drawn = normal(&mut random);
+                        let is_odd = drawn > 3.3;
+                        T::literal(if is_odd { f64::NAN } else { (noise * drawn).round() * 0.125 })
+                    })
+                    .collect();
+                let before = at_once;
+                let sound = at_once.update_sound(&readings);
+                let faults: Vec<_> = readings.iter().map(|reading| singly.update(*reading, true)).collect();
+                if sound {
+                    glances += readings.len();
+                    assert!(faults.iter().all(Option::is_none), "{faults:?}");
+                } else {
+                    assert_eq!(at_once, before);
+                    for reading in &readings {
+                        let _ = at_once.update(*reading, true);
+                    }
+                }
+                assert_eq!(at_once, singly);
+                if piece % 17 == 16 {
+                    at_once.interrupt();
+                    singly.interrupt();
+                }
+            }
+            assert!(at_once.update_sound(&[]));
+            // A change without a size is looked at.
+            assert!(!at_once.update_sound(&[T::GREATEST, -T::GREATEST]));
+        }
+        assert!(glances > 20_000, "{glances}");
+    }
+    check::<f64>();
+    check::<f32>();
+}

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::file::{HandScene, MOST};
 use super::grasped::Grasped;
 use crate::observe::{Quantiles, Trace};
-use crate::output::name_of;
 use crate::report::{Axis, Chart, Figure};
+use crate::standard::name_of;
 use crate::summary::Findings;
 use crate::table::{Table, count, number, number_or_dash, percent};
 
