@@ -1,7 +1,13 @@
 //! Puts a pipeline together, stage by stage.
 
+#[cfg(feature = "track")]
+use fingertip_contact::{Tracker, WrenchNoise};
+#[cfg(feature = "track")]
+use fingertip_wrench::Real;
 use fingertip_wrench::Uncompensated;
 
+#[cfg(feature = "track")]
+use crate::Tracking;
 use crate::{Absent, Fingertip, Present};
 
 /// Chooses the stages of a [`Fingertip`]; what is not chosen is left out.
@@ -21,11 +27,11 @@ use crate::{Absent, Fingertip, Present};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub struct FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload> {
-    fingertip: Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload>,
+pub struct FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track> {
+    fingertip: Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track>,
 }
 
-impl FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated, Absent> {
+impl FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated, Absent, Absent> {
     pub(crate) const fn new() -> Self {
         Self {
             fingertip: Fingertip {
@@ -36,22 +42,23 @@ impl FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated, Abs
                 model: Absent,
                 friction: Absent,
                 detector: Absent,
+                track: Absent,
             },
         }
     }
 }
 
-impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
-    FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload>
+impl<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track>
+    FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track>
 {
     /// What takes the zero and the temperature off the readings.
     pub fn zero<Next>(
         self,
         zero: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Next, Payload> {
-        let Fingertip { solver, payload, surface, model, friction, detector, .. } = self.fingertip;
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Next, Payload, Track> {
+        let Fingertip { solver, payload, surface, model, friction, detector, track, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector, track },
         }
     }
 
@@ -59,10 +66,10 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     pub fn solver<Next>(
         self,
         solver: Next,
-    ) -> FingertipBuilder<Next, Surface, Model, Friction, Detector, Zero, Payload> {
-        let Fingertip { zero, payload, surface, model, friction, detector, .. } = self.fingertip;
+    ) -> FingertipBuilder<Next, Surface, Model, Friction, Detector, Zero, Payload, Track> {
+        let Fingertip { zero, payload, surface, model, friction, detector, track, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector, track },
         }
     }
 
@@ -73,10 +80,10 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     pub fn payload<Next>(
         self,
         payload: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Next> {
-        let Fingertip { zero, solver, surface, model, friction, detector, .. } = self.fingertip;
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Next, Track> {
+        let Fingertip { zero, solver, surface, model, friction, detector, track, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector, track },
         }
     }
 
@@ -85,10 +92,10 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         self,
         surface: Shape,
         model: Assumption,
-    ) -> FingertipBuilder<Solver, Shape, Assumption, Friction, Detector, Zero, Payload> {
-        let Fingertip { zero, solver, payload, friction, detector, .. } = self.fingertip;
+    ) -> FingertipBuilder<Solver, Shape, Assumption, Friction, Detector, Zero, Payload, Track> {
+        let Fingertip { zero, solver, payload, friction, detector, track, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector, track },
         }
     }
 
@@ -96,7 +103,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     pub fn friction<Next>(
         self,
         friction: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Present<Next>, Detector, Zero, Payload> {
+    ) -> FingertipBuilder<Solver, Surface, Model, Present<Next>, Detector, Zero, Payload, Track> {
         self.friction_stage(Present(friction))
     }
 
@@ -104,7 +111,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     pub fn slip_detector<Next>(
         self,
         detector: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Present<Next>, Zero, Payload> {
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Present<Next>, Zero, Payload, Track> {
         self.slip_stage(Present(detector))
     }
 
@@ -113,10 +120,10 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     pub fn friction_stage<Next>(
         self,
         friction: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Next, Detector, Zero, Payload> {
-        let Fingertip { zero, solver, payload, surface, model, detector, .. } = self.fingertip;
+    ) -> FingertipBuilder<Solver, Surface, Model, Next, Detector, Zero, Payload, Track> {
+        let Fingertip { zero, solver, payload, surface, model, detector, track, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector, track },
         }
     }
 
@@ -125,17 +132,39 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     pub fn slip_stage<Next>(
         self,
         detector: Next,
-    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Next, Zero, Payload> {
-        let Fingertip { zero, solver, payload, surface, model, friction, .. } = self.fingertip;
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Next, Zero, Payload, Track> {
+        let Fingertip { zero, solver, payload, surface, model, friction, track, .. } = self.fingertip;
         FingertipBuilder {
-            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector },
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector, track },
+        }
+    }
+
+    /// What follows the contact over time, and how noisy the wrench is, by which it weighs each contact: every touch
+    /// then says where the contact is by all samples so far, and how fast it moves.
+    #[cfg(feature = "track")]
+    pub fn tracker<T: Real>(
+        self,
+        tracker: Tracker<T>,
+        noise: WrenchNoise<T>,
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload, Tracking<T>> {
+        self.track_stage(Tracking { tracker, noise })
+    }
+
+    /// A stage of your own in the place of `tracker`: any [`TrackStage`](crate::TrackStage).
+    pub fn track_stage<Next>(
+        self,
+        track: Next,
+    ) -> FingertipBuilder<Solver, Surface, Model, Friction, Detector, Zero, Payload, Next> {
+        let Fingertip { zero, solver, payload, surface, model, friction, detector, .. } = self.fingertip;
+        FingertipBuilder {
+            fingertip: Fingertip { zero, solver, payload, surface, model, friction, detector, track },
         }
     }
 
     /// The pipeline. It runs as soon as it has a surface and a contact model (for wrenches), and a
     /// solver (for signals).
     #[must_use]
-    pub fn build(self) -> Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload> {
+    pub fn build(self) -> Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track> {
         self.fingertip
     }
 }

@@ -7,7 +7,7 @@ use fingertip_wrench::{Real, Sensor};
 
 use crate::Touch;
 
-impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict>
+impl<T: Real, Reading, Verdict, Tracked> Touch<T, Reading, Verdict, Tracked>
 where
     Verdict: Copy + Into<Option<SlipVerdict>>,
 {

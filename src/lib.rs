@@ -17,6 +17,7 @@ mod stage;
 mod step;
 #[cfg(feature = "friction")]
 mod touch_sensor;
+mod tracking;
 
 pub use fingertip_contact as contact;
 #[cfg(feature = "friction")]
@@ -39,3 +40,6 @@ pub use stage::{Absent, GripStage, Present, SlipStage};
 pub use step::Step;
 #[cfg(feature = "friction")]
 pub use touch_sensor::{AnyTouch, TouchSensor};
+pub use tracking::TrackStage;
+#[cfg(feature = "track")]
+pub use tracking::Tracking;

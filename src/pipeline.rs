@@ -4,7 +4,7 @@ use fingertip_contact::{ContactModel, Resolution};
 use fingertip_wrench::{Compensation, ContactForce, Real, Uncompensated, Wrench, WrenchSolver};
 use nalgebra::{SVector, Vector3};
 
-use crate::{Absent, FingertipBuilder, GripStage, SlipStage, Step};
+use crate::{Absent, FingertipBuilder, GripStage, SlipStage, Step, TrackStage};
 
 /// One fingertip: from raw readings to touch.
 ///
@@ -35,6 +35,7 @@ pub struct Fingertip<
     Detector = Absent,
     Zero = Uncompensated,
     Payload = Absent,
+    Track = Absent,
 > {
     pub(crate) zero: Zero,
     pub(crate) solver: Solver,
@@ -43,6 +44,7 @@ pub struct Fingertip<
     pub(crate) model: Model,
     pub(crate) friction: Friction,
     pub(crate) detector: Detector,
+    pub(crate) track: Track,
 }
 
 /// What one sample says.
@@ -65,11 +67,13 @@ pub struct Fingertip<
 #[cfg_attr(
     feature = "serde",
     serde(bound(
-        serialize = "T: serde::Serialize, Reading: serde::Serialize, Verdict: serde::Serialize",
-        deserialize = "T: serde::Deserialize<'de>, Reading: serde::Deserialize<'de>, Verdict: serde::Deserialize<'de>"
+        serialize = "T: serde::Serialize, Reading: serde::Serialize, Verdict: serde::Serialize, \
+            Tracked: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, Reading: serde::Deserialize<'de>, \
+            Verdict: serde::Deserialize<'de>, Tracked: serde::Deserialize<'de>"
     ))
 )]
-pub struct Touch<T: Real, Reading = (), Verdict = ()> {
+pub struct Touch<T: Real, Reading = (), Verdict = (), Tracked = ()> {
     /// The load on the fingertip, without that of its payload.
     pub wrench: Wrench<T>,
     /// Where it touches, or why nowhere.
@@ -80,9 +84,11 @@ pub struct Touch<T: Real, Reading = (), Verdict = ()> {
     pub grip: Option<Reading>,
     /// What the slip detector says.
     pub slip: Verdict,
+    /// Where the contact is by all samples so far, as the tracker says.
+    pub tracked: Tracked,
 }
 
-impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict> {
+impl<T: Real, Reading, Verdict, Tracked> Touch<T, Reading, Verdict, Tracked> {
     /// Where it touches \[m\]; `None` without a contact.
     #[inline(always)]
     pub fn point(&self) -> Option<Vector3<T>> {
@@ -92,24 +98,24 @@ impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict> {
 
 impl Fingertip<Absent, Absent, Absent> {
     /// Starts a pipeline with every optional stage left out.
-    pub const fn builder() -> FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated, Absent>
-    {
+    pub const fn builder()
+    -> FingertipBuilder<Absent, Absent, Absent, Absent, Absent, Uncompensated, Absent, Absent> {
         FingertipBuilder::new()
     }
 }
 
-impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
-    Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload>
+impl<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track>
+    Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track>
 {
     /// One raw reading, and the time since the one before \[s\] or a whole [`Step`].
     // Always in line: an answer that goes through memory is written in small pieces and read in large
     // ones, which costs more than a sample of a small scene.
     #[inline(always)]
-    pub fn sense<T, M, Reading, Verdict, const N: usize>(
+    pub fn sense<T, M, Reading, Verdict, Tracked, const N: usize>(
         &mut self,
         raw: &Zero::Raw,
         step: impl Into<Step<T, M>>,
-    ) -> Touch<T, Reading, Verdict>
+    ) -> Touch<T, Reading, Verdict, Tracked>
     where
         T: Real,
         Zero: Compensation<SVector<T, N>>,
@@ -118,6 +124,7 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
         Model: ContactModel<T, Surface>,
         Friction: GripStage<T, Reading = Reading>,
         Detector: SlipStage<T, Verdict = Verdict>,
+        Track: TrackStage<T, Model, Surface, Tracked = Tracked>,
     {
         let measured = self.solver.solve(&self.zero.compensate(raw));
         self.sense_wrench(measured, step)
@@ -128,17 +135,18 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     #[inline(always)]
     // What stages say are parameters: were it told by their traits in the answer, the compiler would call a stage that
     // is none a method that is not there, without the traits' words for it.
-    pub fn sense_wrench<T, M, Reading, Verdict>(
+    pub fn sense_wrench<T, M, Reading, Verdict, Tracked>(
         &mut self,
         measured: Wrench<T>,
         step: impl Into<Step<T, M>>,
-    ) -> Touch<T, Reading, Verdict>
+    ) -> Touch<T, Reading, Verdict, Tracked>
     where
         T: Real,
         Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, M)>,
         Model: ContactModel<T, Surface>,
         Friction: GripStage<T, Reading = Reading>,
         Detector: SlipStage<T, Verdict = Verdict>,
+        Track: TrackStage<T, Model, Surface, Tracked = Tracked>,
     {
         let Step { time, last, motion } = step.into();
         let wrench = self.payload.compensate(&(measured, motion));
@@ -147,7 +155,9 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
             Some(force) => (Some(self.friction.judge(force)), self.detector.follow(Some(force), time)),
             None => (None, self.detector.follow(None, time)),
         };
-        Touch { wrench, resolution, force, grip, slip }
+        let on = (&self.model, &self.surface);
+        let tracked = self.track.follow(resolution.contact(), &wrench, on, time);
+        Touch { wrench, resolution, force, grip, slip, tracked }
     }
 
     /// The stage that takes off what is not load.
@@ -183,5 +193,15 @@ impl<Solver, Surface, Model, Friction, Detector, Zero, Payload>
     /// The slip detector, to reset it after a change of grasp.
     pub const fn detector_mut(&mut self) -> &mut Detector {
         &mut self.detector
+    }
+
+    /// What follows the contact over time.
+    pub const fn track(&self) -> &Track {
+        &self.track
+    }
+
+    /// The same, to reset it after a pause.
+    pub const fn track_mut(&mut self) -> &mut Track {
+        &mut self.track
     }
 }

@@ -4,12 +4,12 @@ use fingertip_contact::ContactModel;
 use fingertip_friction::{SlipMargin, SlipVerdict};
 use fingertip_wrench::{Compensation, Real, Wrench};
 
-use crate::{Fingertip, GripStage, SlipStage, Step, Touch};
+use crate::{Fingertip, GripStage, SlipStage, Step, Touch, TrackStage};
 
 /// What a sample says, of whichever stages there are.
 pub type AnyTouch<T> = Touch<T, Option<SlipMargin<T>>, Option<SlipVerdict>>;
 
-impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict> {
+impl<T: Real, Reading, Verdict, Tracked> Touch<T, Reading, Verdict, Tracked> {
     /// The same in words that all stages have in common.
     #[inline(always)]
     pub(crate) fn any<Friction, Detector>(self) -> AnyTouch<T>
@@ -17,9 +17,9 @@ impl<T: Real, Reading, Verdict> Touch<T, Reading, Verdict> {
         Friction: GripStage<T, Reading = Reading>,
         Detector: SlipStage<T, Verdict = Verdict>,
     {
-        let Self { wrench, resolution, force, grip, slip } = self;
+        let Self { wrench, resolution, force, grip, slip, .. } = self;
         let grip = grip.map(|reading| Friction::margin(&reading));
-        Touch { wrench, resolution, force, grip, slip: Detector::slip(&slip) }
+        Touch { wrench, resolution, force, grip, slip: Detector::slip(&slip), tracked: () }
     }
 }
 
@@ -61,14 +61,15 @@ pub trait TouchSensor<T: Real> {
     fn start_anew(&mut self);
 }
 
-impl<T, Solver, Surface, Model, Friction, Detector, Zero, Payload> TouchSensor<T>
-    for Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload>
+impl<T, Solver, Surface, Model, Friction, Detector, Zero, Payload, Track> TouchSensor<T>
+    for Fingertip<Solver, Surface, Model, Friction, Detector, Zero, Payload, Track>
 where
     T: Real,
     Payload: Compensation<Wrench<T>, Raw = (Wrench<T>, ())>,
     Model: ContactModel<T, Surface>,
     Friction: GripStage<T>,
     Detector: SlipStage<T>,
+    Track: TrackStage<T, Model, Surface>,
 {
     fn feel(&mut self, wrench: Wrench<T>, step: Step<T>) -> AnyTouch<T> {
         self.sense_wrench(wrench, step).any::<Friction, Detector>()
@@ -76,6 +77,7 @@ where
 
     fn start_anew(&mut self) {
         self.detector_mut().start_anew();
+        self.track_mut().start_anew();
     }
 }
 

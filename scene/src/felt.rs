@@ -54,7 +54,7 @@ impl<T: Real> Felt<T> {
         let (zero, force) = (Wrench::zero(), T::zero());
         let resolution = Resolution::NoContact(NoContact::BelowThreshold { force });
         Self {
-            touch: Touch { wrench: zero, resolution, force: None, grip: None, slip: None },
+            touch: Touch { wrench: zero, resolution, force: None, grip: None, slip: None, tracked: () },
             spread: None,
             tracked: None,
             happened: None,

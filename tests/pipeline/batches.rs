@@ -267,8 +267,14 @@ fn a_sample_is_put_where_there_is_room() {
     let mut slip = [SlipVerdict::Warning; 2];
     let resolution = Resolution::NoContact(NoContact::NotFinite);
     let grip = Some(Some(SlipMargin { newtons: 0.25, utilisation: 0.5 }));
-    let touch =
-        Touch { wrench: Wrench::zero(), resolution, force: None, grip, slip: Some(SlipVerdict::Slipping) };
+    let touch = Touch {
+        wrench: Wrench::zero(),
+        resolution,
+        force: None,
+        grip,
+        slip: Some(SlipVerdict::Slipping),
+        tracked: (),
+    };
     let [px, py, pz, normal, tx, ty, tz, margin, utilisation] = &mut columns[..] else { unreachable!() };
     let mut touches = Touches {
         point: [px, py, pz],

@@ -360,3 +360,59 @@ fn a_lost_contact_starts_a_detector_anew() {
     // The ratio halves while pressed: slip. Lifted in between: another grasp.
     assert_eq!([slips(false), slips(true)], [true, false]);
 }
+
+/// The stage does what one would do by hand with the same tracker: to the last bit, for both models, with lost contacts
+/// between; and a detector and friction beside it change nothing.
+#[cfg(feature = "track")]
+#[test]
+fn a_tracker_as_a_stage_is_the_tracker_by_hand() {
+    use fingertip::TouchSensor;
+    use fingertip::contact::{Sighting, SoftFinger, Tracker, WrenchNoise};
+    use nalgebra::Vector6;
+
+    let noise = WrenchNoise::new(Vector6::new(0.01, 0.01, 0.01, 1e-4, 1e-4, 1e-4), 0.01).unwrap();
+    let tracker = || Tracker::new(0.01, 0.1).unwrap();
+    let ball = Sphere::centred(RADIUS).unwrap();
+    let push = |sample: u32| {
+        let angle = 1e-3 * f64::from(sample);
+        let normal = Vector3::new(angle.sin(), 0.0, angle.cos());
+        // Every seventh sample is no contact.
+        let strength = if sample % 7 == 6 { 0.01 } else { 0.5 };
+        Wrench::from_force_at(&(normal * RADIUS), -normal * strength)
+    };
+    let (point, soft) = (PointContact::new(0.1).unwrap(), SoftFinger::new(0.1).unwrap());
+    let mut by_point = Fingertip::builder()
+        .contact(ball, point)
+        .friction(Coulomb::new(0.5).unwrap())
+        .slip_detector(DropDetector::new(ForceNoise::isotropic(0.02).unwrap()).unwrap())
+        .tracker(tracker(), noise)
+        .build();
+    let mut by_soft = Fingertip::builder().contact(ball, soft).tracker(tracker(), noise).build();
+    let (mut point_hand, mut soft_hand) = (tracker(), tracker());
+    let mut followed = 0;
+    for sample in 0..60 {
+        let wrench = push(sample);
+        let covariance = noise.covariance(&wrench);
+        let found = point.resolve(&wrench, &ball);
+        let sighting =
+            found.contact().and_then(|found| Sighting::of_point_contact(found, &wrench, &covariance));
+        let expected = point_hand.follow(&ball, sighting.as_ref(), 1e-3);
+        let touch = by_point.sense_wrench(wrench, 1e-3);
+        assert_eq!(touch.tracked, expected);
+        assert_eq!(touch.resolution, found);
+        let found = soft.resolve(&wrench, &ball);
+        let sighting = found.contact().and_then(|found| Sighting::of_soft_finger(found, &ball, &covariance));
+        let expected = soft_hand.follow(&ball, sighting.as_ref(), 1e-3);
+        assert_eq!(by_soft.sense_wrench(wrench, 1e-3).tracked, expected);
+        followed += u32::from(expected.is_some_and(|tracked| !tracked.is_new()));
+    }
+    assert!(followed > 50, "{followed}");
+    assert_eq!((by_point.track().tracker, by_soft.track().tracker), (point_hand, soft_hand));
+    // As a touch sensor it follows, too, and forgets on demand.
+    let _ = by_point.feel(push(61), Step::of(1e-3));
+    assert_ne!(by_point.track().tracker, point_hand);
+    by_point.start_anew();
+    assert!(by_point.sense_wrench(push(63), 1e-3).tracked.unwrap().is_new());
+    by_soft.start_anew();
+    assert!(by_soft.sense_wrench(push(63), 1e-3).tracked.unwrap().is_new());
+}

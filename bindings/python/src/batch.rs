@@ -108,7 +108,7 @@ fn three<'a, T: Element>(array: &'a mut PyReadwriteArray2<'_, T>) -> Option<[&'a
 /// What a row without a wrench says.
 fn nothing<T: Scalar>() -> AnyTouch<T> {
     let resolution = Resolution::NoContact(NoContact::NotFinite);
-    Touch { wrench: Wrench::zero(), resolution, force: None, grip: None, slip: None }
+    Touch { wrench: Wrench::zero(), resolution, force: None, grip: None, slip: None, tracked: () }
 }
 
 /// Rows `start` and on of the touches.

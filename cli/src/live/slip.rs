@@ -107,6 +107,7 @@ mod tests {
             force: Some(ContactForce::new(2.0 / ratio, Vector3::new(0.0, 2.0, 0.0), 0.0)),
             grip: Some(Some(SlipMargin { newtons: 0.25, utilisation: ratio / 0.5 })),
             slip: verdict,
+            tracked: (),
         };
         state.sample(0.0, &Wrench::zero(), Some(touch), Instant::now());
         state

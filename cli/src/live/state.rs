@@ -189,7 +189,7 @@ mod tests {
 
     fn touch(slip: Option<SlipVerdict>) -> Option<SceneTouch> {
         let resolution = Resolution::NoContact(NoContact::NotFinite);
-        Some(SceneTouch { wrench: Wrench::zero(), resolution, force: None, grip: None, slip })
+        Some(SceneTouch { wrench: Wrench::zero(), resolution, force: None, grip: None, slip, tracked: () })
     }
 
     fn load(force: [f64; 3], torque: [f64; 3]) -> Wrench<f64> {
