@@ -6,7 +6,7 @@
 use fingertip::friction::{ForceNoise, SlipVerdict};
 use fingertip::hand::{
     FingerLimits, FingerSample, FingerState, Grasp, GraspContact, Hand, HandController, HandLoad,
-    HandSettings, HandState, LearntFriction, ObjectWeight, UncertainWrench,
+    HandSettings, HandState, LearntFriction, Metric, ObjectWeight, OtherContact, Reach, UncertainWrench,
 };
 use fingertip::nalgebra::{Matrix6, Vector3};
 use fingertip::wrench::{ContactForce, Wrench};
@@ -68,6 +68,27 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     if let Some(found) = weight.estimate() {
         println!("it weighs {:.1} g ± {:.1} g", found.mass * 1e3, found.mass_deviation * 1e3);
         println!("its middle is at {:.1} mm below the fingers", -found.centre.z * 1e3);
+    }
+    // It is put down: the edge of a table, 3 cm beside the middle, bears 1 N of it.
+    let jar = Wrench::<f64, Hand>::from_force_at(&centre, gravity * mass);
+    let table = Wrench::from_force_at(&Vector3::new(0.03, 0.0, -0.08), Vector3::z());
+    let felt = UncertainWrench { wrench: jar + table, covariance: noise };
+    if let Some(other) = OtherContact::new(&felt, &weight, &gravity)
+        && let (true, Ok(axis)) = (other.touches(1e-3), other.line)
+    {
+        println!("something bears {:.2} N of it at x = {:.1} mm", axis.force, axis.line.point.x * 1e3);
+    }
+    // With motors that give 0.3 N·m at a lever of 4 cm, and whatever pulls.
+    let mut jointed = [FingerLimits::<f64, 4>::none(); 3];
+    for (limits, contact) in jointed.iter_mut().zip(contacts.iter().flatten()) {
+        let [x, y, z] = (contact.normal() * 0.04).into();
+        *limits = limits.with_joint(&[x, y, z, 0.0, 0.0, 0.0].into(), 0.3)?;
+    }
+    if let Reach::Times(times) = grasp.reach(&jointed, &jar, &jar) {
+        println!("{times:.1} more of such jars could be borne");
+    }
+    if let Some(ball) = grasp.ball(Metric::Total { length: 0.04 }) {
+        println!("1 N of grip resists any {:.2} N, but not every {:.2} N", ball.certified, ball.found);
     }
     Ok(())
 }

@@ -54,30 +54,53 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
     }
 
     /// With limits of the torques at the joints of the finger \[N·m\], or of the forces of its linear drives \[N\]:
-    /// `jacobian` has a column for each joint, the motion of the fingertip as a rigid body for a unit rate of the
-    /// joint: the velocity of the point at the origin of the grasp's frame, then the angular velocity. A torque is
-    /// then `column · wrench on the fingertip`. Limits of joints that were given before are replaced.
+    /// `jacobian` has a column for each joint, as [`with_joint`](Self::with_joint) takes them. Limits of joints that were
+    /// given before are replaced.
     ///
     /// # Errors
     /// [`BadLimit`] unless the Jacobian is finite and the torques positive and finite, or if there is no room.
     pub fn with_joint_torques<const JOINTS: usize>(
-        mut self,
+        self,
         jacobian: &SMatrix<T, 6, JOINTS>,
         greatest: &[T; JOINTS],
     ) -> Result<Self, BadLimit> {
-        if !jacobian.iter().all(|x| x.is_number()) {
+        let free = Self { joints: [None; ROWS], ..self };
+        let mut each = jacobian.column_iter().zip(greatest);
+        each.try_fold(free, |limits, (column, greatest)| limits.with_joint(&column.into_owned(), *greatest))
+    }
+
+    /// With one joint more, that gives at most so much torque \[N·m\] either way, or force \[N\] of a linear drive. The
+    /// column of the hand's Jacobian is the motion of the fingertip as a rigid body for a unit rate of the joint: the velocity
+    /// of the point at the origin of the grasp's frame, then the angular velocity. The torque is
+    /// `column · wrench on the fingertip`.
+    ///
+    /// ```
+    /// use fingertip_hand::FingerLimits;
+    /// use nalgebra::{Vector3, Vector6};
+    ///
+    /// // A hinge along y, 8 cm below the origin of the hand, of 0.2 N·m.
+    /// let (axis, at) = (Vector3::y(), Vector3::new(0.0, 0.0, -0.08));
+    /// let velocity = -axis.cross(&at);
+    /// let column = Vector6::from_iterator(velocity.iter().chain(&axis).copied());
+    /// let limits = FingerLimits::<f64, 2>::none().with_joint(&column, 0.2)?;
+    /// // There is room for one: the second says what it lacks.
+    /// assert!(limits.with_joint(&column, 0.2).is_err());
+    /// # Ok::<(), fingertip_hand::BadLimit>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BadLimit`] unless the column is finite and the torque positive and finite, or if there is no room.
+    pub fn with_joint(mut self, column: &Vector6<T>, greatest: T) -> Result<Self, BadLimit> {
+        if !column.iter().all(|x| x.is_number()) {
             return Err(BadLimit::BadNumber { parameter: "Jacobian of the joints", requirement: "finite" });
         }
-        let used = usize::from(self.least.is_some()) + usize::from(self.greatest.is_some());
-        let needed = used + 2 * JOINTS;
-        if needed > ROWS {
-            return Err(BadLimit::NoRoom { room: ROWS, needed });
+        let greatest = positive(greatest, "greatest torque of a joint")?;
+        let used = self.joints.iter().flatten().count();
+        match self.joints.get_mut(used) {
+            Some(place) => *place = Some((*column, greatest)),
+            None => return Err(BadLimit::NoRoom { room: ROWS, needed: self.simple() + 2 * (used + 1) }),
         }
-        self.joints = [None; ROWS];
-        for ((joint, column), greatest) in self.joints.iter_mut().zip(jacobian.column_iter()).zip(greatest) {
-            *joint = Some((column.into_owned(), positive(*greatest, "greatest torque of a joint")?));
-        }
-        Ok(self)
+        self.checked()
     }
 
     /// With a cost for each newton of its normal force; 1 if none is given. Only ratios between fingers matter.
@@ -106,6 +129,11 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
         self.cost
     }
 
+    /// Half-spaces of the normal force.
+    fn simple(&self) -> usize {
+        usize::from(self.least.is_some()) + usize::from(self.greatest.is_some())
+    }
+
     fn checked(self) -> Result<Self, BadLimit> {
         if let (Some(least), Some(greatest)) = (self.least, self.greatest)
             && greatest < least
@@ -115,9 +143,7 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
                 requirement: "at least the least normal force",
             });
         }
-        let needed = usize::from(self.least.is_some())
-            + usize::from(self.greatest.is_some())
-            + 2 * self.joints.iter().flatten().count();
+        let needed = self.simple() + 2 * self.joints.iter().flatten().count();
         if needed > ROWS { Err(BadLimit::NoRoom { room: ROWS, needed }) } else { Ok(self) }
     }
 
@@ -130,7 +156,11 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
         let mut rows = [None; ROWS];
         let along = |first: T| Vector4::new(first, T::zero(), T::zero(), T::zero());
         let both = self.greatest.is_some() && self.least.is_some();
-        let simple = [(self.greatest, T::one(), false), (self.least, -T::one(), both)];
+        // A limit far above the load is brought near 1, and both rows alike, so that one is the other's opposite.
+        let much = self.greatest.map_or(T::zero(), |greatest| greatest * per_newton);
+        let size =
+            if much > T::literal(1024.0) && much.is_number() { much.normalising_factor() } else { T::one() };
+        let simple = [(self.greatest, size, false), (self.least, -size, both)];
         let simple = simple.into_iter().filter_map(|(bound, sign, opposite)| {
             bound.map(|bound| Row { normal: along(sign), bound: bound * sign * per_newton, opposite })
         });
@@ -139,8 +169,8 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
             // Torque of the force on the object; on the fingertip it has the other sign, and both are bounded.
             let normal = contact.columns(&origin, T::one()).tr_mul(column);
             let bound = *greatest * per_newton;
-            // A row near 1, so that it is worth as much as another.
-            let size = normal.amax().max(bound * T::EPSILON);
+            // A row near 1, so that it is worth as much as another; and a slack near 1 of a joint that feels little or nothing.
+            let size = normal.amax().max(bound);
             let size = size.normalising_factor();
             [(T::one(), false), (-T::one(), true)].map(|(sign, opposite)| Row {
                 normal: normal * (sign * size),

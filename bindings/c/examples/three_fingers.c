@@ -40,6 +40,28 @@ static ft_wrench simulated(double normal, double share) {
     return wrench;
 }
 
+/* What the jar weighs, and how much more could be borne with motors that give 0.5 N m at 4 cm. */
+static int weigh(ft_hand *hand, const ft_finger fingers[FINGERS], const ft_wrench *load) {
+    /* Off the table, the load is the jar alone: with 2 mN and 20 uN m of noise. */
+    ft_uncertain_wrench felt = {*load, {{0}}};
+    for (int i = 0; i < 6; ++i) felt.covariance[i][i] = i < 3 ? 4e-6 : 4e-10;
+    const double gravity[3] = {0.0, 0.0, -9.80665};
+    ft_object object;
+    if (ft_hand_weigh(hand, &felt, &gravity) != FT_OK || ft_hand_object(hand, &object) != FT_OK) return -1;
+    const ft_wrench more = {{0.0, 0.0, -1.0}, {0.0, 0.0, 0.0}};
+    for (int i = 0; i < FINGERS; ++i) {
+        const ft_pose pose = pose_of(i);
+        const double drive[6] = {0.04 * pose.rotation[0][2], 0.04 * pose.rotation[1][2], 0.0, 0.0, 0.0, 0.0};
+        const double torque = 0.5;
+        if (ft_hand_set_joints(hand, (size_t)i, drive, &torque, 1) != FT_OK) return -1;
+    }
+    ft_reach reach;
+    if (ft_hand_reach(hand, fingers, FINGERS, NULL, &more, &reach) != FT_OK) return -1;
+    printf("        the jar is of %.1f g within %.1f g; %.1f N more could be borne\n", 1e3 * object.mass,
+           1e3 * object.mass_deviation, reach.times);
+    return 0;
+}
+
 /* The loop of a controller. Returns how many samples were contacts of all fingers, or a negative number. */
 static int hold(ft_tip *tips[FINGERS], ft_hand *hand, double command[FINGERS]) {
     struct timespec next;
@@ -77,6 +99,7 @@ static int hold(ft_tip *tips[FINGERS], ft_hand *hand, double command[FINGERS]) {
             if (ft_object_wrench(fingers, FINGERS, &load, NULL) != FT_OK) return -1;
             printf("%3d ms: press with %.2f, %.2f, %.2f N; the jar weighs %.2f N; holding: %s\n", sample, command[0],
                    command[1], command[2], -load.force[2], order.state == FT_HAND_HOLDING ? "yes" : "no");
+            if (sample > 100 && weigh(hand, fingers, &load) != 0) return -1;
         }
         next.tv_nsec += 1000000;
         if (next.tv_nsec >= 1000000000) {
@@ -111,6 +134,22 @@ int main(void) {
 
     ft_hand_free(&hand);
     for (int i = 0; i < FINGERS; ++i) ft_tip_free(&tips[i]);
+    /* Whatever pulls: the ball of wrenches that 1 N of grip resists. */
+    ft_finger ring[FINGERS];
+    for (int i = 0; i < FINGERS; ++i) {
+        const ft_pose pose = pose_of(i);
+        const ft_finger none = {0};
+        ring[i] = none;
+        ring[i].touching = 1;
+        ring[i].friction = friction;
+        for (int axis = 0; axis < 3; ++axis) {
+            ring[i].normal[axis] = pose.rotation[axis][2];
+            ring[i].point[axis] = -radius * pose.rotation[axis][2];
+        }
+    }
+    ft_quality quality;
+    if (!failed) failed = ft_grasp_quality(ring, FINGERS, radius, 0, &quality, &error) != FT_OK;
+    if (!failed) printf("1 N of grip resists any %.2f N, but not every %.2f N\n", quality.certified, quality.found);
     puts(failed ? "failed" : "done");
     return failed;
 }

@@ -33,6 +33,9 @@
 // Most places of a tactile array that are told apart.
 #define FT_MAX_PLACES 4
 
+// Most joints of a finger.
+#define FT_MAX_JOINTS 6
+
 // Bytes of a message, its closing zero included.
 #define FT_MESSAGE_BYTES 512
 
@@ -196,7 +199,30 @@ typedef uint32_t ft_hand_state;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A hand: what it commanded last, and what slip has taught it. Made by ft_hand_create, freed by ft_hand_free.
+// What there is of a reach.
+enum ft_reach_state
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // So many times the disturbance, and no more.
+    FT_REACH_TIMES = 0,
+    // As much as one likes: no limit of a finger matters.
+    FT_REACH_UNLIMITED = 1,
+    // Neither the load alone nor any multiple of the disturbance beside it can be held.
+    FT_REACH_NOT_HELD = 2,
+    // A number is not finite, a finger feels what cannot be and no load was given, or it could not be told.
+    FT_REACH_UNKNOWN = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum ft_reach_state ft_reach_state;
+#else
+typedef uint32_t ft_reach_state;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A hand: what it commanded last, what slip has taught it, and what it has learnt of the object. Made by ft_hand_create, freed by ft_hand_free.
 typedef struct ft_hand ft_hand;
 
 // A fingertip: a scene that runs. Made by ft_tip_from_scene and its like, freed by ft_tip_free.
@@ -581,6 +607,81 @@ typedef struct ft_reading {
     const struct ft_motion *motion;
 } ft_reading;
 
+// A wrench, and how sure it is: both about the origin of the hand's frame.
+typedef struct ft_uncertain_wrench {
+    // The wrench.
+    struct ft_wrench wrench;
+    // Its covariance, force before torque, in N², N·N·m and N²·m²: symmetric and positive definite.
+    double covariance[6][6];
+} ft_uncertain_wrench;
+
+// What is known of the object that a hand holds.
+typedef struct ft_object {
+    // 1 if the mass is known.
+    uint32_t has_mass;
+    // 1 if the centre of mass is known, too, which takes two orientations.
+    uint32_t has_centre;
+    // In kg.
+    double mass;
+    // Its standard deviation in kg.
+    double mass_deviation;
+    // In the frame of the hand, in m.
+    double centre[3];
+    // Its covariance in m².
+    double centre_covariance[3][3];
+} ft_object;
+
+// What else touches the object, such as a table or another hand.
+typedef struct ft_other {
+    // 1 if the weight is known, so that the rest below says something.
+    uint32_t is_known;
+    // 1 if something touches: that is said in error no more often than was asked for.
+    uint32_t touches;
+    // 1 if the wrench has a line along which its force acts.
+    uint32_t has_line;
+    // Zero.
+    uint32_t reserved;
+    // What they do to the object.
+    struct ft_uncertain_wrench load;
+    // Chi-square with six degrees of freedom if nothing touches.
+    double statistic;
+    // The point of the line next to the origin of the hand's frame, in m.
+    double point[3];
+    // Its direction, of length one.
+    double direction[3];
+    // Torque along the line over force, in m: zero of one contact without friction torque, which lies on the line.
+    double pitch;
+} ft_other;
+
+// How good a grasp is, whatever its load.
+typedef struct ft_quality {
+    // In how many directions the contacts hold the object: 6 if in all.
+    uint32_t rank;
+    // 1 if any wrench can be borne by pressing hard enough, 0 if not, 2 if it could not be told.
+    uint32_t force_closure;
+    // The radius in N of the ball of wrenches that 1 N bears (Ferrari & Canny) is at least this: certified.
+    double certified;
+    // It is at most this, which a search found.
+    double found;
+    // The load of that size that is borne least: of unit length in the metric.
+    struct ft_wrench weakest;
+    // The 6 - rank motions that no contact resists, of which the direction alone has a meaning: velocities at the origin of
+    // the hand's frame in m/s.
+    double freedom_velocity[6][3];
+    // Their angular velocities in rad/s.
+    double freedom_turning[6][3];
+} ft_quality;
+
+// How far a load can grow before no forces hold it.
+typedef struct ft_reach {
+    // What there is of it.
+    ft_reach_state state;
+    // Zero.
+    uint32_t reserved;
+    // How many times the disturbance can be borne beside the load, with FT_REACH_TIMES.
+    double times;
+} ft_reach;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -695,11 +796,62 @@ ft_status ft_hand_command(struct ft_hand *hand,
                           double time_step,
                           struct ft_hand_order *order);
 
-// Forgets what slip has taught of the friction, as when another object is grasped. The commands stay.
+// Forgets what slip has taught of the friction and what the object weighs, as when another one is grasped. Commands and
+// limits stay.
 ft_status ft_hand_forget(struct ft_hand *hand);
+
+// Says what the joints of a finger can give from now on, as in each sample where they turn; `count` 0 for no limits.
+// `jacobian` has six numbers of each joint, one joint behind the other: the motion of the fingertip as a rigid body for a
+// unit rate of the joint, its velocity at the origin of the hand's frame in m/s and its angular velocity in rad/s. `greatest`
+// has the torque of each in N·m either way, or the force of a linear drive in N. Commands and the least grip keep to it.
+// Allocates nothing.
+ft_status ft_hand_set_joints(struct ft_hand *hand,
+                             size_t finger,
+                             const double *jacobian,
+                             const double *greatest,
+                             size_t count);
 
 // A reading of gauges alone.
 struct ft_reading ft_reading_of(const double *gauges, size_t count);
+
+// Takes in what the fingers feel together while nothing else touches the object, as ft_object_wrench gives it, with
+// gravity in the frame of the hand in m/s², less the acceleration of the object where that is known. Samples count as
+// independent: give them as far apart as their errors last. FT_BAD_NUMBER, and nothing learnt, unless the numbers are finite
+// and the covariance is positive definite. Allocates nothing.
+ft_status ft_hand_weigh(struct ft_hand *hand,
+                        const struct ft_uncertain_wrench *load,
+                        const double (*gravity)[3]);
+
+// What was learnt of the object. Allocates nothing.
+ft_status ft_hand_object(struct ft_hand *hand, struct ft_object *object);
+
+// What else touches the object, from what the fingers feel together now and the weight that ft_hand_weigh has learnt.
+// `false_alarm` is the probability with which `touches` may be said where nothing does, such as 0.001. Allocates nothing.
+ft_status ft_hand_other(struct ft_hand *hand,
+                        const struct ft_uncertain_wrench *load,
+                        const double (*gravity)[3],
+                        double false_alarm,
+                        struct ft_other *other);
+
+// The quality of the grasp of these fingers. Torques about the mean of the contacts are divided by `length` in m to compare
+// them with forces; `each` is 0 if all normal forces together are 1 N, 1 if each is. It takes some hundred cone programs: for
+// planning, not for every sample. `error` may be NULL. Allocates nothing.
+ft_status ft_grasp_quality(const struct ft_finger *fingers,
+                           size_t count,
+                           double length,
+                           uint32_t each,
+                           struct ft_quality *quality,
+                           struct ft_error *error);
+
+// How many times a disturbance can be added to a load before no forces within friction, the limits of the hand and its
+// joints hold it. `load` as in ft_hand_command. Without the hand's safety and without what slip has taught. Allocates
+// nothing. That there is no such number is FT_OK, and a state.
+ft_status ft_hand_reach(struct ft_hand *hand,
+                        const struct ft_finger *fingers,
+                        size_t count,
+                        const struct ft_wrench *load,
+                        const struct ft_wrench *disturbance,
+                        struct ft_reach *reach);
 
 // Takes the signals of the gauges while nothing touches: ft_end_rest makes their mean the zero.
 ft_status ft_rest(struct ft_tip *tip, const double *gauges, size_t count);

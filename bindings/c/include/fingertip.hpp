@@ -260,7 +260,16 @@ inline Made<ft_finger> finger(const ft_touch& touch, const ft_pose& hand_from_se
     return {status == FT_OK ? std::optional<ft_finger>(finger) : std::nullopt, error};
 }
 
-/// A hand: what it commanded last, and what slip has taught it.
+/// The quality of the grasp of these fingers: see ft_grasp_quality.
+inline Made<ft_quality> quality(View<const ft_finger> fingers, double length, bool each = false) noexcept {
+    ft_quality quality{};
+    Error error;
+    const ft_status status =
+        ft_grasp_quality(fingers.data(), fingers.size(), length, each ? 1 : 0, &quality, error.raw());
+    return {status == FT_OK ? std::optional<ft_quality>(quality) : std::nullopt, error};
+}
+
+/// A hand: what it commanded last, what slip has taught it, and what it has learnt of the object.
 class Hand {
 public:
     static Made<Hand> create(const ft_hand_settings& settings, std::size_t fingers) {
@@ -282,6 +291,35 @@ public:
     Result<ft_grip> least_grip(View<const ft_finger> fingers, const ft_wrench* load = nullptr) noexcept {
         Result<ft_grip> result{FT_OK, {}};
         result.status = ft_hand_least_grip(raw(), fingers.data(), fingers.size(), load, &result.value);
+        return result;
+    }
+    /// What the joints of a finger can give from now on: six numbers of each joint, and its greatest torque.
+    ft_status set_joints(std::size_t finger, View<const double> jacobian, View<const double> greatest) noexcept {
+        if (jacobian.size() != 6 * greatest.size()) return FT_WRONG_SIZE;
+        return ft_hand_set_joints(raw(), finger, jacobian.data(), greatest.data(), greatest.size());
+    }
+    /// How many times a disturbance can be borne beside a load; without one, beside what the fingers feel together.
+    Result<ft_reach> reach(View<const ft_finger> fingers, const ft_wrench& disturbance,
+                           const ft_wrench* load = nullptr) noexcept {
+        Result<ft_reach> result{FT_OK, {}};
+        result.status = ft_hand_reach(raw(), fingers.data(), fingers.size(), load, &disturbance, &result.value);
+        return result;
+    }
+    /// Takes in what the fingers feel together while nothing else touches the object.
+    ft_status weigh(const ft_uncertain_wrench& load, const double (&gravity)[3]) noexcept {
+        return ft_hand_weigh(raw(), &load, &gravity);
+    }
+    /// What was learnt of the object.
+    Result<ft_object> object() noexcept {
+        Result<ft_object> result{FT_OK, {}};
+        result.status = ft_hand_object(raw(), &result.value);
+        return result;
+    }
+    /// What else touches the object.
+    Result<ft_other> other(const ft_uncertain_wrench& load, const double (&gravity)[3],
+                           double false_alarm = 1e-3) noexcept {
+        Result<ft_other> result{FT_OK, {}};
+        result.status = ft_hand_other(raw(), &load, &gravity, false_alarm, &result.value);
         return result;
     }
     ft_status forget() noexcept { return ft_hand_forget(raw()); }

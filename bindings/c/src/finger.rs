@@ -9,6 +9,7 @@ use nalgebra::Matrix3;
 
 use crate::border::{place, read, told};
 use crate::fault::{Fault, finite, ft_status};
+use crate::hand::ROWS;
 use crate::load::ft_wrench;
 use crate::message::ft_error;
 use crate::touch::{ft_resolution, ft_slip, ft_touch};
@@ -123,7 +124,7 @@ fn friction(coefficient: f64, arm: f64) -> Result<ContactFriction<f64>, BadConta
 }
 
 impl ft_finger_limits {
-    pub(crate) fn limits(&self, finger: usize) -> Result<FingerLimits<f64, 2>, Fault> {
+    pub(crate) fn limits(&self, finger: usize) -> Result<FingerLimits<f64, ROWS>, Fault> {
         let bad = |source| Fault::Limit { finger, source };
         let mut limits = FingerLimits::none();
         if self.least_normal_force != 0.0 {

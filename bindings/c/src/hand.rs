@@ -2,24 +2,29 @@
 
 use core::ffi::c_char;
 
-use fingertip::hand::{AnyBelief, FingerLimits, HandController, HandSettings, HandState, LeastGrip};
+use fingertip::hand::{
+    AnyBelief, FingerLimits, HandController, HandSettings, HandState, LeastGrip, ObjectWeight,
+};
 
 use crate::border::{self, Keeps, hand_out, on, place, read, read_many, told};
 use crate::fault::{Fault, ft_status};
 use crate::finger::{FT_MAX_FINGERS, fingers, ft_finger, ft_finger_limits, load};
+use crate::joints::FT_MAX_JOINTS;
 use crate::load::ft_wrench;
 use crate::message::ft_error;
 
-/// Half-spaces that limit a finger: of its least and its greatest normal force.
-pub(crate) const ROWS: usize = 2;
+/// Half-spaces that limit a finger: of its least and its greatest normal force, and two of each joint.
+pub(crate) const ROWS: usize = 2 + 2 * FT_MAX_JOINTS;
 
-/// A hand: what it commanded last, and what slip has taught it. Made by ft_hand_create, freed by ft_hand_free.
+/// A hand: what it commanded last, what slip has taught it, and what it has learnt of the object. Made by ft_hand_create, freed by ft_hand_free.
 #[derive(Debug)]
 pub struct ft_hand {
     pub(crate) controller: HandController<f64, FT_MAX_FINGERS, ROWS, AnyBelief<f64>>,
     pub(crate) limits: [FingerLimits<f64, ROWS>; FT_MAX_FINGERS],
     /// For the question of the least grip alone.
     pub(crate) least: LeastGrip<f64, FT_MAX_FINGERS, ROWS>,
+    /// Of what is held.
+    pub(crate) weight: ObjectWeight<f64>,
     pub(crate) count: usize,
     error: ft_error,
 }
@@ -164,7 +169,8 @@ pub unsafe extern "C" fn ft_hand_create(
         let beliefs = [given.belief()?; FT_MAX_FINGERS];
         let controller = HandController::with_beliefs(given.habits(), each, beliefs)?;
         let least = LeastGrip::new();
-        hand_out(place, ft_hand { controller, limits: each, least, count, error: ft_error::none() });
+        let weight = ObjectWeight::new();
+        hand_out(place, ft_hand { controller, limits: each, least, weight, count, error: ft_error::none() });
         Ok(())
     })
 }
@@ -239,12 +245,14 @@ pub unsafe extern "C" fn ft_hand_command(
     })
 }
 
-/// Forgets what slip has taught of the friction, as when another object is grasped. The commands stay.
+/// Forgets what slip has taught of the friction and what the object weighs, as when another one is grasped. Commands and
+/// limits stay.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_hand_forget(hand: *mut ft_hand) -> ft_status {
     on(hand, |hand| {
         hand.controller.forget_friction();
         hand.least.forget();
+        hand.weight = ObjectWeight::new();
         Ok(())
     })
 }

@@ -23,8 +23,11 @@ mod finger;
 mod fuse;
 mod grip;
 mod hand;
+mod joints;
 mod load;
 mod message;
+mod object;
+mod quality;
 mod rest;
 mod sense;
 mod tip;
@@ -46,8 +49,11 @@ pub use hand::{
     ft_hand, ft_hand_command, ft_hand_create, ft_hand_forget, ft_hand_free, ft_hand_message, ft_hand_order,
     ft_hand_settings, ft_hand_settings_defaults, ft_hand_state,
 };
+pub use joints::{FT_MAX_JOINTS, ft_hand_set_joints};
 pub use load::{ft_motion, ft_reading, ft_reading_of, ft_wrench};
 pub use message::{FT_MESSAGE_BYTES, ft_error};
+pub use object::{ft_hand_object, ft_hand_other, ft_hand_weigh, ft_object, ft_other, ft_uncertain_wrench};
+pub use quality::{ft_grasp_quality, ft_hand_reach, ft_quality, ft_reach, ft_reach_state};
 pub use rest::{
     ft_end_rest, ft_rest, ft_rest_doubt, ft_rest_reading, ft_rest_wrench, ft_rest_wrench_moving, ft_set_zero,
     ft_set_zero_wrench, ft_zero_wrench,

@@ -15,10 +15,11 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::ffi::CString;
 
 use fingertip_c::{
-    ft_beside_last, ft_end_rest, ft_finger_from_touch, ft_finger_limits, ft_hand_command, ft_hand_create,
-    ft_hand_free, ft_hand_least_grip, ft_hand_settings_defaults, ft_pose, ft_rest, ft_sense, ft_sense_all,
+    ft_beside_last, ft_end_rest, ft_finger_from_touch, ft_finger_limits, ft_grasp_quality, ft_hand_command,
+    ft_hand_create, ft_hand_free, ft_hand_least_grip, ft_hand_object, ft_hand_other, ft_hand_reach,
+    ft_hand_set_joints, ft_hand_settings_defaults, ft_hand_weigh, ft_pose, ft_rest, ft_sense, ft_sense_all,
     ft_sense_wrench, ft_status, ft_tip, ft_tip_free, ft_tip_from_scene, ft_touch, ft_touch_columns,
-    ft_wrench, ft_wrench_columns,
+    ft_uncertain_wrench, ft_wrench, ft_wrench_columns,
 };
 
 struct Counting;
@@ -177,6 +178,23 @@ fn commands(touch: &ft_touch) {
         assert_eq!(status, ft_status::FT_OK);
         let status = unsafe { ft_hand_command(hand, fingers, 3, load, 1e-3, order.as_mut_ptr()) };
         assert_eq!(status, ft_status::FT_WRONG_SIZE);
+        let hinge = [0.08, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let status = unsafe { ft_hand_set_joints(hand, 1, hinge.as_ptr(), [2.0].as_ptr(), 1) };
+        assert_eq!(status, ft_status::FT_OK);
+        let mut reach = MaybeUninit::uninit();
+        let status = unsafe { ft_hand_reach(hand, fingers, 2, load, load, reach.as_mut_ptr()) };
+        assert_eq!(status, ft_status::FT_OK);
+        let mut felt = ft_uncertain_wrench { wrench: unsafe { *load }, covariance: [[0.0; 6]; 6] };
+        (0..6).for_each(|i| felt.covariance[i][i] = 1e-6);
+        let gravity = [0.0, 0.0, -9.81];
+        assert_eq!(unsafe { ft_hand_weigh(hand, &felt, &gravity) }, ft_status::FT_OK);
+        let (mut object, mut other) = (MaybeUninit::uninit(), MaybeUninit::uninit());
+        assert_eq!(unsafe { ft_hand_object(hand, object.as_mut_ptr()) }, ft_status::FT_OK);
+        let status = unsafe { ft_hand_other(hand, &felt, &gravity, 1e-3, other.as_mut_ptr()) };
+        assert_eq!(status, ft_status::FT_OK);
+        let mut quality = MaybeUninit::uninit();
+        let status = unsafe { ft_grasp_quality(fingers, 2, 0.02, 0, quality.as_mut_ptr(), ptr::null_mut()) };
+        assert_eq!(status, ft_status::FT_OK);
     }
     unsafe { ft_hand_free(&raw mut hand) };
 }

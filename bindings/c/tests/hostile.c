@@ -294,7 +294,24 @@ static void hand_calls(void) {
     void *to = place();
     ft_status status;
     size_t bytes;
-    switch (below(6)) {
+    ft_uncertain_wrench felt;
+    numbers(&felt, 42, 1.0);
+    for (int i = 0; i < 6 && once_in(2); ++i) felt.covariance[i][i] += 8.0;
+    double motion[6 * (FT_MAX_JOINTS + 1)], torques[FT_MAX_JOINTS + 1], gravity[3];
+    numbers(motion, 6 * (FT_MAX_JOINTS + 1), 1.0);
+    numbers(torques, FT_MAX_JOINTS + 1, 1.0);
+    numbers(gravity, 3, 9.81);
+    switch (below(12)) {
+        case 6: memset(output, CANARY, sizeof output), status = ft_hand_weigh(hand, once_in(30) ? NULL : &felt, once_in(30) ? NULL : &gravity), bytes = 0; break;
+        case 7: status = ft_hand_object(hand, to), bytes = sizeof(ft_object); break;
+        case 8: status = ft_hand_other(hand, once_in(30) ? NULL : &felt, once_in(30) ? NULL : &gravity, number(0.5), to), bytes = sizeof(ft_other); break;
+        case 9: status = ft_hand_reach(hand, in, count, loaded, once_in(30) ? NULL : &felt.wrench, to), bytes = sizeof(ft_reach); break;
+        case 10:
+            memset(output, CANARY, sizeof output);
+            status = ft_hand_set_joints(hand, below(4), once_in(30) ? NULL : motion, once_in(30) ? NULL : torques, below(FT_MAX_JOINTS + 2));
+            bytes = 0;
+            break;
+        case 11: status = once_in(8) ? ft_grasp_quality(in, count, number(0.02), below(3), to, NULL) : ft_hand_object(NULL, to), bytes = sizeof(ft_quality); break;
         case 0: status = ft_hand_command(hand, in, count, loaded, once_in(4) ? number(1.0) : 1e-3, to), bytes = sizeof(ft_hand_order); break;
         case 1: status = ft_hand_least_grip(hand, in, count, loaded, to), bytes = sizeof(ft_grip); break;
         case 2: status = ft_object_wrench(in, count, to, NULL), bytes = sizeof(ft_wrench); break;

@@ -8,7 +8,8 @@ use fingertip::wrench::ContactForce;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::hand::{MOST, contact, limits, wrench};
+use crate::hand::{MOST, contact, wrench};
+use crate::limits::{Each, Given, Joints, ROWS};
 use crate::{enums, errors, numbers, value};
 
 /// Tells the fingers of a hand how firmly to press, so that they hold with some safety and no more.
@@ -26,8 +27,9 @@ use crate::{enums, errors, numbers, value};
 ///     asks for more is not believed.
 /// recovery : float, optional
 ///     With what rate the factor that slips have taught goes back to one [1/s]; 0 for never.
-/// least, greatest : float, optional
-///     Normal force of each finger [N].
+/// least, greatest, cost, joints : optional
+///     What each finger can give, as in `Grasp.least_grip`; the least normal force is 0.3 N where none is given. Where joints
+///     turn, `set_limits` takes them anew.
 /// friction_noise : float, optional
 ///     Standard deviation of a component of the contact force [N]. With it, each finger learns its friction at slips, and
 ///     relies on that in place of the coefficient of its contact.
@@ -41,24 +43,24 @@ use crate::{enums, errors, numbers, value};
 #[pyclass(name = "HandController", module = "fingertip", skip_from_py_object)]
 #[derive(Clone)]
 pub(crate) struct PyController {
-    hand: HandController<f64, MOST, 2, AnyBelief<f64>>,
+    hand: HandController<f64, MOST, ROWS, AnyBelief<f64>>,
     made: Made,
 }
 
-/// Habits, limits of the normal forces, and noise, scatter and probability of friction that is learnt.
-type Made = (HandSettings<f64>, f64, Option<f64>, Option<[f64; 3]>);
+/// Habits, what the fingers can give, and noise, scatter and probability of friction that is learnt.
+type Made = (HandSettings<f64>, Given, Option<[f64; 3]>);
 
 impl PyController {
     fn of(made: Made) -> PyResult<Self> {
-        let (settings, least, greatest, learning) = made;
+        let (settings, given, learning) = &made;
         let belief = match learning {
             None => AnyBelief::default(),
             Some([noise, scatter, probability]) => {
-                AnyBelief::learning(noise, scatter, probability).map_err(errors::hand)?
+                AnyBelief::learning(*noise, *scatter, *probability).map_err(errors::hand)?
             }
         };
-        let limits = limits(least, greatest)?;
-        let hand = HandController::with_beliefs(settings, limits, [belief; MOST]).map_err(errors::hand)?;
+        let limits = given.limits()?;
+        let hand = HandController::with_beliefs(*settings, limits, [belief; MOST]).map_err(errors::hand)?;
         Ok(Self { hand, made })
     }
 }
@@ -117,7 +119,10 @@ pub(crate) fn told<'py>(py: Python<'py>, sample: &FingerSample<f64>) -> PyResult
 #[pymethods]
 impl PyController {
     #[new]
-    #[pyo3(signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, recovery=0.0, least=0.3, greatest=None, friction_noise=None, friction_scatter=0.05, friction_probability=0.01))]
+    #[pyo3(
+        signature = (*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, recovery=0.0, least=Each::All(0.3), greatest=None, cost=Each::All(1.0), joints=None, friction_noise=None, friction_scatter=0.05, friction_probability=0.01),
+        text_signature = "(*, safety=1.3, rise=200.0, fall=2.0, at_slip=0.8, least_friction=0.1, greatest_ratio=3.0, recovery=0.0, least=0.3, greatest=None, cost=1.0, joints=None, friction_noise=None, friction_scatter=0.05, friction_probability=0.01)"
+    )]
     #[allow(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         safety: f64,
@@ -127,15 +132,36 @@ impl PyController {
         least_friction: f64,
         greatest_ratio: f64,
         recovery: f64,
-        least: f64,
-        greatest: Option<f64>,
+        least: Each,
+        greatest: Option<Each>,
+        cost: Each,
+        joints: Option<Joints<'_>>,
         friction_noise: Option<f64>,
         friction_scatter: f64,
         friction_probability: f64,
     ) -> PyResult<Self> {
         let settings = HandSettings { safety, rise, fall, at_slip, least_friction, greatest_ratio, recovery };
         let learning = friction_noise.map(|noise| [noise, friction_scatter, friction_probability]);
-        Self::of((settings, least, greatest, learning))
+        let given = Given::read(None, &least, greatest.as_ref(), &cost, joints)?;
+        Self::of((settings, given, learning))
+    }
+
+    /// Other limits from the next command on, as of joints that have turned: as in `Grasp.least_grip`.
+    #[pyo3(
+        signature = (*, least=Each::All(0.3), greatest=None, cost=Each::All(1.0), joints=None),
+        text_signature = "($self, *, least=0.3, greatest=None, cost=1.0, joints=None)"
+    )]
+    fn set_limits(
+        &mut self,
+        least: Each,
+        greatest: Option<Each>,
+        cost: Each,
+        joints: Option<Joints<'_>>,
+    ) -> PyResult<()> {
+        let given = Given::read(None, &least, greatest.as_ref(), &cost, joints)?;
+        self.hand.set_limits(given.limits()?);
+        self.made.1 = given;
+        Ok(())
     }
 
     /// Takes what the fingers feel; gives what to command.

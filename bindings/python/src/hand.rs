@@ -1,17 +1,18 @@
-//! `fingertip.Grasp` and `fingertip.ObjectWeight`: several fingertips on one object.
+//! `fingertip.Grasp`: several fingertips on one object.
 
 use core::array;
 
 use fingertip::hand::{
-    CannotHold, FingerLimits, Freedom, Grasp, GraspBall, GraspContact, Grip, GripOutcome, Hand, LeastGrip,
-    Metric, ObjectWeight, OtherContact, Reach, SplitForces, UncertainWrench, WeightEstimate,
+    CannotHold, Freedom, Grasp, GraspBall, GraspContact, Grip, GripOutcome, Hand, LeastGrip, Metric, Reach,
+    SplitForces,
 };
 use fingertip::wrench::{ContactForce, Wrench};
-use numpy::{PyArray1, PyArray2};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::{errors, numbers, value};
+use crate::limits::{Each, Given, Joints};
+use crate::{errors, numbers};
 
 /// Most fingers of a grasp.
 pub(crate) const MOST: usize = 5;
@@ -64,18 +65,6 @@ pub(crate) fn contact(given: &Bound<'_, PyDict>) -> PyResult<GraspContact<f64, H
 
 pub(crate) fn wrench(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Wrench<f64, Hand>> {
     Ok(Wrench::from_components(&numbers::numbers::<6>(given, what)?.into()))
-}
-
-/// The same limits for every finger.
-pub(crate) fn limits(least: f64, greatest: Option<f64>) -> PyResult<[FingerLimits<f64, 2>; MOST]> {
-    let mut limits = FingerLimits::none();
-    if least > 0.0 {
-        limits = limits.with_least_normal(least).map_err(errors::hand)?;
-    }
-    if let Some(greatest) = greatest {
-        limits = limits.with_greatest_normal(greatest).map_err(errors::hand)?;
-    }
-    Ok([limits; MOST])
 }
 
 impl PyGrasp {
@@ -171,8 +160,15 @@ impl PyGrasp {
     /// ----------
     /// load : array_like, shape (6,)
     ///     What pulls at the object, such as its weight, about the origin of the frame [N, N·m].
-    /// least, greatest : float, optional
-    ///     Normal force of each finger [N].
+    /// least, greatest : float or list of float, optional
+    ///     Normal force [N], of all fingers or of each.
+    /// cost : float or list of float, optional
+    ///     What a newton of normal force costs, of all fingers or of each: ratios count.
+    /// joints : list, optional
+    ///     Of each finger `None`, or the columns of the hand's Jacobian and what its joints can give: an array of shape
+    ///     (6, joints), of each joint the velocity of the fingertip as a rigid body at the origin of the frame and its angular
+    ///     velocity for a unit rate, and as many torques [N·m] (forces [N] of linear drives). A torque is the column times the
+    ///     wrench on the fingertip.
     ///
     /// Returns
     /// -------
@@ -183,15 +179,37 @@ impl PyGrasp {
     /// ------
     /// HandError
     ///     The load cannot be held so.
-    #[pyo3(signature = (load, *, least=0.0, greatest=None))]
+    ///
+    /// Examples
+    /// --------
+    /// Two fingers carry 1 kg with a motor each, that pulls at a lever of 8 cm across the grip:
+    ///
+    /// >>> from fingertip import Grasp
+    /// >>> sides = [{"point": [x, 0, 0], "outward": [-x, 0, 0], "friction": 0.5, "arm": 3e-3} for x in (-0.02, 0.02)]
+    /// >>> hinge = [[0.08], [0], [0], [0], [1], [0]]
+    /// >>> for torque in (1.0, 0.7):
+    /// ...     try:
+    /// ...         forces = Grasp(sides).least_grip([0, 0, -9.81, 0, 0, 0], joints=[(hinge, [torque])] * 2)
+    /// ...         print(round(forces[0][0], 2), "N")
+    /// ...     except ValueError:
+    /// ...         print("not held")
+    /// 9.81 N
+    /// not held
+    #[pyo3(
+        signature = (load, *, least=Each::All(0.0), greatest=None, cost=Each::All(1.0), joints=None),
+        text_signature = "($self, load, *, least=0.0, greatest=None, cost=1.0, joints=None)"
+    )]
     fn least_grip<'py>(
         &self,
         py: Python<'py>,
         load: &Bound<'py, PyAny>,
-        least: f64,
-        greatest: Option<f64>,
+        least: Each,
+        greatest: Option<Each>,
+        cost: Each,
+        joints: Option<Joints<'py>>,
     ) -> PyResult<Forces<'py>> {
-        let (limits, load) = (limits(least, greatest)?, wrench(load, "load")?);
+        let given = Given::read(Some(self.count), &least, greatest.as_ref(), &cost, joints)?;
+        let (limits, load) = (given.limits()?, wrench(load, "load")?);
         match LeastGrip::new().solve(&self.grasp, &limits, &load) {
             GripOutcome::Held(Grip { forces, .. }) => Ok(self.said(py, &forces)),
             GripOutcome::CannotHold(CannotHold { velocity, turning, .. }) => {
@@ -209,15 +227,21 @@ impl PyGrasp {
 
     /// How many times a disturbance can be added to a load before it cannot be held: infinite where there is no end,
     /// `None` where the load itself is not held or it cannot be told.
-    #[pyo3(signature = (load, disturbance, *, least=0.0, greatest=None))]
+    /// Limits as in `least_grip`.
+    #[pyo3(
+        signature = (load, disturbance, *, least=Each::All(0.0), greatest=None, joints=None),
+        text_signature = "($self, load, disturbance, *, least=0.0, greatest=None, joints=None)"
+    )]
     fn reach(
         &self,
         load: &Bound<'_, PyAny>,
         disturbance: &Bound<'_, PyAny>,
-        least: f64,
-        greatest: Option<f64>,
+        least: Each,
+        greatest: Option<Each>,
+        joints: Option<Joints<'_>>,
     ) -> PyResult<Option<f64>> {
-        let limits = limits(least, greatest)?;
+        let given = Given::read(Some(self.count), &least, greatest.as_ref(), &Each::All(1.0), joints)?;
+        let limits = given.limits()?;
         let reach = self.grasp.reach(&limits, &wrench(load, "load")?, &wrench(disturbance, "disturbance")?);
         Ok(match reach {
             Reach::Times(times) => Some(times),
@@ -247,59 +271,5 @@ impl PyGrasp {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (Vec<Py<PyDict>>,)) {
         let contacts = slf.get().contacts.iter().map(|contact| contact.clone_ref(slf.py())).collect();
         (slf.get_type().into_any(), (contacts,))
-    }
-}
-
-/// Learns what an object weighs and where its middle is, from what holds it while it is turned.
-/// Copies and pickles keep what it has learnt.
-#[pyclass(name = "ObjectWeight", module = "fingertip", skip_from_py_object)]
-#[derive(Clone)]
-pub(crate) struct PyWeight(ObjectWeight<f64>);
-
-value::learner_class!(PyWeight);
-
-#[pymethods]
-impl PyWeight {
-    #[new]
-    fn new() -> Self {
-        Self(ObjectWeight::new())
-    }
-
-    /// Takes the load that the fingers bear, its covariance, and gravity in the same frame [m/s²]; `False` for one that
-    /// tells nothing.
-    fn observe(
-        &mut self,
-        load: &Bound<'_, PyAny>,
-        covariance: &Bound<'_, PyAny>,
-        gravity: &Bound<'_, PyAny>,
-    ) -> PyResult<bool> {
-        let covariance = numbers::matrix::<6, 6>(covariance, "covariance")?;
-        let load = UncertainWrench { wrench: wrench(load, "load")?, covariance };
-        Ok(self.0.observe(&load, &numbers::three(gravity, "gravity")?))
-    }
-
-    /// Mass [kg] and its deviation, centre of mass [m] and its covariance; `None` before enough is known.
-    fn estimate<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> Option<(f64, f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
-        let WeightEstimate { mass, mass_deviation, centre, centre_covariance } = self.0.estimate()?;
-        Some((mass, mass_deviation, numbers::array(py, &centre), numbers::array2(py, &centre_covariance)))
-    }
-
-    /// Whether something else than the fingers touches the object, with a probability of a false alarm; `None` before the
-    /// weight is known.
-    #[pyo3(signature = (load, covariance, gravity, false_alarm=1e-3))]
-    fn touches_elsewhere(
-        &self,
-        load: &Bound<'_, PyAny>,
-        covariance: &Bound<'_, PyAny>,
-        gravity: &Bound<'_, PyAny>,
-        false_alarm: f64,
-    ) -> PyResult<Option<bool>> {
-        let covariance = numbers::matrix::<6, 6>(covariance, "covariance")?;
-        let load = UncertainWrench { wrench: wrench(load, "load")?, covariance };
-        let other = OtherContact::new(&load, &self.0, &numbers::three(gravity, "gravity")?);
-        Ok(other.map(|other| other.touches(false_alarm)))
     }
 }

@@ -20,6 +20,7 @@ mod fingertip;
 mod friction;
 mod gauges;
 mod hand;
+mod limits;
 mod model;
 mod numbers;
 mod object;
@@ -36,6 +37,7 @@ mod timing;
 mod touch;
 mod track;
 mod value;
+mod weight;
 
 /// The extension module.
 #[pyo3::pymodule(gil_used = false)]
@@ -60,7 +62,7 @@ mod _native {
     #[pymodule_export]
     use crate::gauges::{PyMonitor, conditioning, worst_errors};
     #[pymodule_export]
-    use crate::hand::{PyGrasp, PyWeight};
+    use crate::hand::PyGrasp;
     #[pymodule_export]
     use crate::model::{PyCovariance, PyJacobian, PyModel, paper_bounds};
     #[pymodule_export]
@@ -83,4 +85,6 @@ mod _native {
     use crate::touch::{PyHappened, PyImpact, PySpread, PyTouch, PyTracked};
     #[pymodule_export]
     use crate::track::{PyEvents, PyJudge, PyMeeting, fuse};
+    #[pymodule_export]
+    use crate::weight::PyWeight;
 }

@@ -280,6 +280,72 @@ def test_the_least_grip_bears_the_load_within_friction():
         grasp.least_grip(load * 100, greatest=1.0)
 
 
+def pinch():
+    sides = [{"point": [x, 0, 0], "outward": [-x, 0, 0], "friction": 0.5, "arm": 3e-3} for x in (-0.02, 0.02)]
+    return Grasp(sides)
+
+
+def test_joints_and_costs_limit_each_finger():
+    # A hinge along y, 8 cm below the line of the fingers: 0.08 N·m for a newton of normal force, and what hangs on the finger
+    # adds 0.02 N·m a newton.
+    hinge = np.array([[0.08, 0, 0, 0, 1, 0]]).T
+    load = np.array([0, 0, -4.0, 0, 0, 0])
+    plain = pinch().least_grip(load)
+    assert [normal for normal, _, _ in plain] == pytest.approx([4.0, 4.0], rel=1e-5)
+
+    def torque(side, force):
+        normal, tangential, _ = force
+        point, outward = np.array([0.02 * side, 0, 0]), np.array([-side, 0, 0])
+        on_tip = tangential - normal * outward
+        return hinge[:, 0] @ np.hstack([on_tip, np.cross(point, on_tip)])
+
+    needed = [torque(side, force) for side, force in zip((-1, 1), plain)]
+    most = max(abs(number) for number in needed)
+    enough, little = [(hinge, [most * 1.01])] * 2, [(hinge, [most * 0.8])] * 2
+    assert [f[0] for f in pinch().least_grip(load, joints=enough)] == pytest.approx([4.0, 4.0], rel=1e-4)
+    with pytest.raises(fingertip.HandError, match="cannot be held"):
+        pinch().least_grip(load, joints=little)
+    # Twice as much can be borne with twice the torques, and not more.
+    times = pinch().reach([0] * 6, load, joints=[(hinge, [2 * most])] * 2)
+    assert times == pytest.approx(2.0, rel=1e-3)
+    assert pinch().reach([0] * 6, load, greatest=[8.0, 100.0]) == pytest.approx(2.0, rel=1e-4)
+    # A dear finger beside the right one is spared.
+    side = {"outward": [-1, 0, 0], "friction": 0.5, "arm": 3e-3}
+    doubled = Grasp([{**side, "point": [-0.02, 0, 0], "outward": [1, 0, 0]}, *[{**side, "point": [0.02, 0, 0]}] * 2])
+    dear = doubled.least_grip(load, cost=[1.0, 1.0, 20.0])
+    assert [force[0] for force in dear] == pytest.approx([4.0, 4.0, 0.0], abs=1e-3)
+    grasp, weight = three(), [0, 0, -2.94, 0, 0, 0]
+    for wrong, says in [
+        ({"least": [1.0]}, "`least` has 1 entries, for 3 fingers"),
+        ({"greatest": [1.0, -2.0, 1.0]}, "finger 1: the greatest normal force"),
+        ({"cost": [1.0, 1.0, 0.0]}, "finger 2: the cost"),
+        ({"joints": [(hinge, [1.0])]}, "`joints` has 1 entries"),
+        ({"joints": [(hinge, [1.0, 2.0]), None, None]}, "a column for each torque, 6 at most, not 6 × 1 for 2"),
+        ({"joints": [None, (hinge, [-1.0]), None]}, "finger 1: the greatest torque of a joint"),
+        ({"joints": [None, None, (hinge * np.nan, [1.0])]}, "finger 2: the Jacobian"),
+    ]:
+        with pytest.raises(fingertip.HandError, match=says):
+            grasp.least_grip(weight, **wrong)
+
+
+def test_a_controller_keeps_to_joints_that_turn():
+    hand, twin = fingertip.HandController(safety=1.0, rise=1e4), None
+    fingers = [
+        {"point": [x, 0, 0], "outward": [-x, 0, 0], "friction": 0.5, "arm": 3e-3, "normal": 4.0, "tangential": [0, 0, -1.0]}
+        for x in (-0.02, 0.02)
+    ]
+    drive = np.array([[1.0, 0, 0, 0, 0, 0]]).T
+    assert hand.command(fingers, 1e-3)[:2] == (pytest.approx([2.0, 2.0], rel=1e-4), True)
+    hand.set_limits(joints=[(drive, [1.5]), (drive, [1.5])])
+    normal, holds, _ = hand.command(fingers, 1e-3)
+    assert holds is False and normal == pytest.approx([2.0, 2.0], rel=1e-4)
+    # A pickle has the limits that were set last.
+    twin = pickle.loads(pickle.dumps(hand))
+    assert twin.command(fingers, 1e-3)[1] is False
+    hand.set_limits(joints=[(drive, [2.5])] * 2)
+    assert hand.command(fingers, 1e-3)[1] is True
+
+
 def test_the_quality_of_a_grasp_is_told():
     grasp = three()
     assert grasp.force_closure is True and grasp.rank == 6 and not grasp.freedoms() and len(grasp) == 3
@@ -399,6 +465,17 @@ def test_an_object_is_weighed():
     load = np.hstack([mass * gravity, np.cross(centre, mass * gravity)])
     assert weight.touches_elsewhere(load, noise, gravity) is False
     assert weight.touches_elsewhere(load + [0, 0, 1.0, 0, 0, 0], noise, gravity) is True
+    # A push of another at a place: the line passes it, and its pitch is none; a twist makes a pitch.
+    place, push = np.array([0.03, -0.01, 0.02]), np.array([0.4, 1.0, -0.3])
+    other = weight.elsewhere(load + np.hstack([push, np.cross(place, push)]), noise, gravity)
+    assert np.allclose(other["wrench"][:3], push, atol=0.05) and other["statistic"] > 100
+    line, unit = other["line"], push / np.linalg.norm(push)
+    assert np.allclose(line["direction"], unit, atol=0.05) and abs(line["point"] @ line["direction"]) < 1e-12
+    assert np.linalg.norm(np.cross(place - line["point"], line["direction"])) < 1e-3 and abs(line["pitch"]) < 1e-3
+    twisted = weight.elsewhere(load + np.hstack([push, np.cross(place, push) + 0.01 * push]), noise, gravity)
+    assert twisted["line"]["pitch"] == pytest.approx(0.01, abs=1e-3)
+    assert np.all(np.linalg.eigvalsh(other["covariance"]) > 4e-8 * 0.99)
+    assert fingertip.ObjectWeight().elsewhere(load, noise, gravity) is None
 
 
 def test_channels_are_watched():

@@ -186,6 +186,182 @@ fn a_finger_that_reads_what_cannot_be_makes_a_row_doubtful() {
     assert_eq!(rough.words("held"), ["held", "cannot_hold", "doubtful"]);
 }
 
+/// Hinges along z, 8 cm beside the fingers, so that a newton of normal force is 0.08 N·m: fixed, and in columns. What hangs
+/// on the fingers along y passes their axes at 2 cm.
+#[test]
+fn joints_limit_the_least_grip_and_costs_share_it() {
+    let folder = folder();
+    let most = "greatest_normal_N = 10.0";
+    let jointed = |torque: f64, jacobian: &str| {
+        HAND.replace(most, &format!("greatest_torques_Nm = [{torque}, 1.0]\n{jacobian}"))
+    };
+    let fixed = "jacobian = [[0.08, 0.0, 0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]]";
+    // A newton at each with friction 0.4: 2.5 N, of which the weight bears a part.
+    let needed = 0.08 * 2.5 - 0.02;
+    let names =
+        |joint: u32| ["vx", "vy", "vz", "wx", "wy", "wz"].map(|part| format!("J_{joint}_{part}")).join(",");
+    let numbers = "0.08,0,0,0,0,1,0,0,0,1,0,0";
+    // The second row lacks a number of the Jacobian.
+    let rows = [
+        format!("{},{numbers}", row(4.0, 2.0)),
+        format!("{},{}", row(4.1, 2.0), numbers.replacen("0.08", "", 1)),
+    ];
+    folder.write("grip.csv", &format!("{HEADER},{},{}\n{}\n", names(1), names(2), rows.join("\n")));
+    for (torque, held) in [(needed * 1.02, "held"), (needed * 0.9, "cannot_hold")] {
+        for (jacobian, second) in [(fixed, held), ("jacobian_columns = \"J\"", "")] {
+            folder.write("jointed.toml", &jointed(torque, jacobian));
+            folder.succeed(&[
+                "analyze",
+                "grip.csv",
+                "--scene",
+                "jointed.toml",
+                "--output",
+                "grasp.csv",
+                "--overwrite",
+            ]);
+            let grasp = Contacts::parse(&folder.read("grasp.csv"));
+            assert_eq!(grasp.words("held"), [held, second], "{torque} {jacobian}");
+            if held == "held" {
+                assert!((grasp.numbers("least_grip_N")[0] - 5.0).abs() < 1e-3);
+            }
+        }
+    }
+    // A third finger at the place of the left one, which is dear, is spared: the two others bear it all.
+    let third = HAND.replace("name = \"Two tips\"", "name = \"Three tips\"")
+        + "\n[[finger]]\nname = \"dear\"\nscene = \"tip.toml\"\nsensor = \"L\"\ntranslation_m = [-0.03, 0.0, 0.0]\n\
+           rotation_deg = [0.0, 90.0, 0.0]\nfriction = 0.5\ncost = 3.0\n";
+    folder.write("dear.toml", &third);
+    folder.succeed(&["analyze", "grip.csv", "--scene", "dear.toml", "--output", "dear.csv", "--overwrite"]);
+    let dear = Contacts::parse(&folder.read("dear.csv"));
+    let (left, spared) = (dear.numbers("left_least_normal_N")[0], dear.numbers("dear_least_normal_N")[0]);
+    assert!(spared < 0.2 * left, "{spared} beside {left}");
+
+    for (jacobian, torques, said) in [
+        (fixed, "[1.0]", "`jacobian` has 2 columns, and `greatest_torques_Nm` 1 numbers"),
+        (fixed, "[1.0, -1.0]", "`jacobian`: the greatest torque of a joint must be positive"),
+        ("jacobian_columns = \"J\"", "[1.0, 0.0]", "`greatest_torques_Nm`: the greatest torque of a joint"),
+        ("jacobian_columns = \"J\"", "[]", "go together"),
+        ("", "[1.0]", "go together"),
+        ("jacobian_columns = \"J\"", "[1, 1, 1, 1, 1, 1, 1]", "has 7 numbers; a finger has 6 joints at most"),
+        ("jacobian_columns = \"K\"", "[1.0]", "has no columns K_1_vx, K_1_vy"),
+        (&format!("{fixed}\njacobian_columns = \"J\""), "[1.0, 1.0]", "either fixed or in columns"),
+        ("cost = -1.0", "[]", "`cost`: the cost of a finger must be positive"),
+    ] {
+        folder
+            .write("bad.toml", &HAND.replace(most, &format!("greatest_torques_Nm = {torques}\n{jacobian}")));
+        let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "bad.toml", "--overwrite"]);
+        assert!(text.contains(said), "{said}:\n{text}");
+    }
+}
+
+/// The object of 0.1 kg hangs on the fingers along y of the hand, as gravity does here; a table then bears half of it at a
+/// place, and a push twists it.
+#[test]
+fn what_else_touches_disturbances_and_quality_are_told_where_they_are_asked_for() {
+    let folder = folder();
+    let asked = "[object]\nmass_kg = 0.1\ngravity_m_per_s2 = [0.0, -10.0, 0.0]\n\
+        [[disturbance]]\nname = \"more\"\nforce_N = [0.0, -1.0, 0.0]\n\
+        [[disturbance]]\nname = \"squeezed\"\nforce_N = [0.0, 0.0, 2.0]\ntorque_Nm = [0.0, 0.0, 0.0]\nat_m = [0.0, 0.0, 0.0]\n\
+        [quality]\nlength_m = 0.02\neffort = \"each\"\nevery_s = 0.015\n";
+    // Soft fingers, which bear a torque about their line.
+    let soft = HAND.replace("friction = 0.5\n", "friction = 0.5\ntorque_arm_m = 0.003\n");
+    folder.write("asked.toml", &format!("{soft}{asked}"));
+    let line = |time: f64, row: String| format!("{time},{row},0,-10,0");
+    let rows = [
+        line(0.0, row(4.0, 1.0)),
+        // What bears half of it: 0.5 N less.
+        line(0.01, row(4.0, 0.5)),
+        // Nothing is felt at all, so that all of the weight is borne by others.
+        line(0.02, row(0.0, 0.0)),
+    ];
+    let header = format!("t_s,{HEADER},g_x_m_per_s2,g_y_m_per_s2,g_z_m_per_s2");
+    folder.write("grip.csv", &format!("{header}\n{}\n", rows.join("\n")));
+    let said = folder.succeed(&["analyze", "grip.csv", "--scene", "asked.toml", "--output", "grasp.csv"]);
+    for words in ["what else touches: its force", "reach: times more", "ball that 1 N of effort surely bears"]
+    {
+        assert!(said.contains(words), "{said}");
+    }
+    let grasp = Contacts::parse(&folder.read("grasp.csv"));
+    let at = |name: &str| grasp.numbers(name);
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-4 * (1.0 + b.abs());
+    for (row, expected) in [0.0, 0.5, 1.0].into_iter().enumerate() {
+        assert!(close(at("other_fy_N")[row], expected), "{:?}", at("other_fy_N"));
+        assert!(close(at("other_fx_N")[row], 0.0) && close(at("other_tz_Nm")[row], 0.0));
+    }
+    // Half of the weight at the middle: a line along y through the origin.
+    for (name, expected) in [("x_m", 0.0), ("z_m", 0.0), ("dy", 1.0), ("dx", 0.0), ("pitch_m", 0.0)] {
+        assert!(
+            close(at(&format!("other_{name}"))[1], expected),
+            "{name}: {:?}",
+            at(&format!("other_{name}"))
+        );
+    }
+    // Fingers of 10 N with friction 0.5 over 1.25 carry 8 N.
+    assert!(close(at("reach_more")[0], 7.0) && close(at("reach_more")[1], 7.5), "{:?}", at("reach_more"));
+    let aside = (64.0_f64 - 1.0).sqrt() / 2.0;
+    assert!(close(at("reach_squeezed")[0], aside), "{:?}", at("reach_squeezed"));
+    assert!(at("reach_more")[2].is_nan() && at("reach_squeezed")[2].is_nan());
+    // What is borne least is a torque about the line of the fingers, 2·μ·e/length; 10 ms later it is not looked at.
+    assert_eq!(grasp.words("closure"), ["yes", "", ""]);
+    let expected = 2.0 * 0.4 * 0.003 / 0.02;
+    assert!((at("ball_found_N")[0] - expected).abs() < 1e-3 && at("ball_N")[0] <= at("ball_found_N")[0]);
+    assert!(at("ball_N")[0] > 0.0 && at("ball_N")[1].is_nan());
+    assert!((at("weakest_tx_Nm")[0].abs() - 0.02).abs() < 1e-3, "{:?}", at("weakest_tx_Nm"));
+
+    // Gravity in columns says the same; without limits there is no end of what squeezes.
+    let columns = asked.replace("gravity_m_per_s2 = [0.0, -10.0, 0.0]", "gravity_columns = \"g\"");
+    folder.write("columns.toml", &format!("{}{columns}", soft.replace("greatest_normal_N = 10.0\n", "")));
+    folder.succeed(&[
+        "analyze",
+        "grip.csv",
+        "--scene",
+        "columns.toml",
+        "--output",
+        "columns.csv",
+        "--overwrite",
+    ]);
+    let columns = Contacts::parse(&folder.read("columns.csv"));
+    assert_eq!(columns.numbers("other_fy_N")[..2], at("other_fy_N")[..2]);
+    assert_eq!(columns.words("reach_more"), ["inf", "inf", ""]);
+    // A twisted push: torque along the line over force.
+    let more = row(4.0, 1.0).split(',').map(|x| x.parse::<f64>().unwrap()).collect::<Vec<_>>();
+    let mut twisted = more.clone();
+    twisted[1] -= 1.0;
+    twisted[3] += 0.01;
+    twisted[4] -= 0.004;
+    let text = twisted.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    folder.write("twisted.csv", &format!("{header}\n{}\n", line(0.0, text)));
+    folder.succeed(&[
+        "analyze",
+        "twisted.csv",
+        "--scene",
+        "asked.toml",
+        "--output",
+        "twisted_grasp.csv",
+        "--overwrite",
+    ]);
+    let twisted = Contacts::parse(&folder.read("twisted_grasp.csv"));
+    assert!(close(twisted.numbers("other_fy_N")[0], -1.0), "{:?}", twisted.numbers("other_fy_N"));
+    assert!(close(twisted.numbers("other_pitch_m")[0], 0.004), "{:?}", twisted.numbers("other_pitch_m"));
+
+    for (from, to, said) in [
+        ("mass_kg = 0.1", "mass_kg = -1.0", "mass_kg = -1 of [object] must be positive"),
+        ("mass_kg = 0.1", "mass_kg = 0.1\ngravity_columns = \"g\"", "either fixed or in columns"),
+        ("gravity_m_per_s2 = [0.0, -10.0, 0.0]", "gravity_columns = \"h\"", "has no columns h_x_m_per_s2"),
+        ("name = \"squeezed\"", "name = \"more\"", "another one has this name"),
+        ("name = \"more\"", "name = \"a,b\"", "letters, digits and _"),
+        ("force_N = [0.0, 0.0, 2.0]", "", "must be other than zero"),
+        ("length_m = 0.02", "length_m = 0.0", "length_m = 0 of [quality] must be positive"),
+        ("every_s = 0.015", "every_s = -1.0", "every_s = -1 of [quality] must be finite"),
+        ("effort = \"each\"", "effort = \"none\"", "effort"),
+        ("mass_kg = 0.1", "mass_kg = 0.1\ncolour = 1", "colour"),
+    ] {
+        folder.write("bad.toml", &format!("{soft}{}", asked.replacen(from, to, 1)));
+        let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "bad.toml", "--overwrite"]);
+        assert!(text.contains(said), "{said}:\n{text}");
+    }
+}
+
 #[test]
 fn poses_can_be_in_columns_and_sensors_in_the_object() {
     let folder = folder();

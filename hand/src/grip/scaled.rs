@@ -21,6 +21,8 @@ pub(crate) struct Scaled<T: Real, const ROWS: usize> {
     /// `map·F`.
     mapped: Matrix6x4<T>,
     rows: [ScaledRow<T>; ROWS],
+    /// How many of these there are, the first ones; see [`Self::present`].
+    used: usize,
     /// `Pᵀ W r + Σ Fᵀg D r`: what the residuals ask for.
     missing: Vector4<T>,
     /// `Σ bound D r`, the same in the equation of τ.
@@ -81,6 +83,12 @@ fn reflect<T: Real>((u, beta): &(Vector4<T>, T), v: &mut Vector4<T>) {
 }
 
 impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
+    /// How many rows to look at, of so many that there are: one or two are passed over faster than they are counted.
+    #[inline(always)]
+    const fn present(used: usize) -> usize {
+        if ROWS > 2 { used } else { ROWS }
+    }
+
     /// Not factored yet.
     pub(crate) fn none() -> Self {
         let none = Vector4::zeros();
@@ -89,6 +97,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
             reflections: [(none, T::zero()); ROWS],
             mapped: Matrix6x4::zeros(),
             rows: [ScaledRow::none(); ROWS],
+            used: 0,
             missing: none,
             missing_of_tau: T::zero(),
             weights: none,
@@ -111,6 +120,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     ) {
         let scaling = Scaling::new(&at.y, &at.z);
         self.scaling = scaling;
+        self.used = block.count();
         scaling.map(&block.map, &mut self.mapped);
         self.missing = scaling.apply(&residual.dual);
         for (scaled, ((row, pair), residual)) in
@@ -130,7 +140,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
             };
         }
         let mut costs = scaling.first_row() * block.cost;
-        for i in 0..ROWS {
+        for i in 0..Self::present(self.used) {
             if let Some(Some(row)) = block.rows.get(i)
                 && !row.opposite
             {
@@ -140,7 +150,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
         }
         let mut weighted = Vector4::zeros();
         self.missing_of_tau = T::zero();
-        for row in &self.rows {
+        for row in self.rows.iter().take(Self::present(self.used)) {
             weighted += row.normal * (row.bound * row.stiffness);
             self.missing += row.normal * (row.stiffness * row.residual);
             self.missing_of_tau += row.bound * row.stiffness * row.residual;
@@ -162,7 +172,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
         reflect_columns(&mut self.mapped, &u, reflection.1);
         reflect(&reflection, costs);
         reflect(&reflection, &mut self.missing);
-        for (j, row) in self.rows.iter_mut().enumerate() {
+        for (j, row) in self.rows.iter_mut().enumerate().take(Self::present(self.used)) {
             // Its own direction becomes u/r: said so, since the reflection would lose it to rounding.
             if j == i {
                 row.normal = u / r;
@@ -190,7 +200,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
         add_pull(&self.mapped, twist, &mut self.of_tau);
         subtract(&self.mapped, &self.of_tau, left);
         let x = &self.of_tau;
-        self.rows.iter().fold(self.unturned(x).norm_squared(), |sum, row| {
+        self.rows.iter().take(Self::present(self.used)).fold(self.unturned(x).norm_squared(), |sum, row| {
             let slack = row.bound - row.normal.dot(x);
             sum + row.stiffness * slack * slack
         })
@@ -200,7 +210,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     #[inline]
     pub(crate) fn predict(&mut self) {
         self.target = -self.scaling.point;
-        for row in &mut self.rows {
+        for row in self.rows.iter_mut().take(Self::present(self.used)) {
             row.target = -row.slack * row.price;
         }
     }
@@ -211,7 +221,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
         let point = &self.scaling.point;
         let second = product(&self.y, &self.z);
         self.target = divide(point, self.scaling.det, &(unit(centre) - second)) - point;
-        for row in &mut self.rows {
+        for row in self.rows.iter_mut().take(Self::present(self.used)) {
             row.target = centre - row.slack * row.price - row.slack_along * row.price_along;
         }
     }
@@ -220,12 +230,12 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     #[inline]
     pub(crate) fn ask(&mut self, keep: T, right: &mut Vector6<T>) -> T {
         let mut x = self.target;
-        for reflection in &self.reflections {
+        for reflection in self.reflections.iter().take(Self::present(self.used)) {
             reflect(reflection, &mut x);
         }
         x -= self.missing * keep;
         let mut of_tau = self.missing_of_tau * keep;
-        for row in &self.rows {
+        for row in self.rows.iter().take(Self::present(self.used)) {
             let share = row.target * row.inverse_slack;
             x -= row.normal * share;
             of_tau += row.bound * share;
@@ -258,7 +268,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     #[inline]
     fn unturned(&self, x: &Vector4<T>) -> Vector4<T> {
         let mut y = *x;
-        for reflection in self.reflections.iter().rev() {
+        for reflection in self.reflections.iter().take(Self::present(self.used)).rev() {
             reflect(reflection, &mut y);
         }
         y
@@ -270,7 +280,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
         self.y = self.unturned(&self.x);
         self.z = self.target - self.y;
         let x = &self.x;
-        for row in &mut self.rows {
+        for row in self.rows.iter_mut().take(Self::present(self.used)) {
             row.slack_along = row.bound * tau - row.normal.dot(x) - row.residual * keep;
             row.price_along = (row.target - row.price * row.slack_along) * row.inverse_slack;
         }
@@ -281,7 +291,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     pub(crate) fn greatest_step(&self, most: T) -> T {
         let mut step = self.scaling.step_to_boundary(&self.y, most);
         step = self.scaling.step_to_boundary(&self.z, step);
-        for row in &self.rows {
+        for row in self.rows.iter().take(Self::present(self.used)) {
             for (x, d) in [(row.slack, row.slack_along), (row.price, row.price_along)] {
                 // A division only where it is the shortest.
                 if x + d * step < T::zero() {

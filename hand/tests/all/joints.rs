@@ -95,3 +95,60 @@ fn joints_alone_limit_the_reach() {
         assert!((times * newtons - 10.0).abs() < 1e-5, "{newtons}: {times}");
     }
 }
+
+/// Room for more limits than there are changes no bit.
+#[test]
+fn room_for_more_limits_changes_nothing() {
+    let mut rng = Pcg64Mcg::seed_from_u64(17);
+    let (mut tight, mut roomy) = (LeastGrip::new(), LeastGrip::new());
+    let mut held = 0;
+    for _ in 0..200 {
+        let Problem { grasp, limits, load } = problem::<4>(&mut rng);
+        let wide = limits.map(|limits| {
+            let mut wide = FingerLimits::<f64, 14>::none().with_cost(limits.cost()).unwrap();
+            if let Some(greatest) = limits.greatest_normal() {
+                wide = wide.with_greatest_normal(greatest).unwrap();
+            }
+            if let Some(least) = limits.least_normal() {
+                wide = wide.with_least_normal(least).unwrap();
+            }
+            wide
+        });
+        let (first, second) = (tight.solve(&grasp, &limits, &load), roomy.solve(&grasp, &wide, &load));
+        assert_eq!(first, second);
+        held += u32::from(first.grip().is_some());
+        let push = Wrench::from_force_at(&grasp.centre(), load.force());
+        assert_eq!(grasp.reach(&limits, &load, &push), grasp.reach(&wide, &load, &push));
+    }
+    assert!(held > 50, "{held}");
+}
+
+/// Joints that feel nothing of a finger, or little beside what they give, limit nothing; so do normal forces far above.
+#[test]
+fn limits_that_do_not_matter_change_nothing() {
+    let at = |side: f64| {
+        GraspContact::<f64, TestHand>::point(Vector3::x() * (side * 0.02), -Vector3::x() * side, 0.5)
+    };
+    let grasp = Grasp::new([at(-1.0).ok(), at(1.0).ok()]);
+    let down = Wrench::on_fingertip(-Vector3::z() * 2.0, Vector3::zeros());
+    // The first turns a finger about the line of the contacts, so that it feels nothing; the second by rounding alone.
+    let turning = Vector6::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
+    let rounding = Vector6::new(1e-18, 0.0, 0.0, 1.0, 0.0, 0.0);
+    let hinge = Vector6::new(0.08, 0.0, 0.0, 0.0, 1.0, 0.0);
+    for power in -3..=12 {
+        let much = 10.0_f64.powi(power);
+        let none = FingerLimits::<f64, 5>::none();
+        let mut all =
+            vec![none.with_joint(&turning, much).unwrap(), none.with_joint(&rounding, much).unwrap()];
+        if power >= 0 {
+            all.push(none.with_joint(&hinge, much).unwrap());
+            all.push(none.with_joint(&hinge, much).unwrap().with_joint(&turning, much).unwrap());
+            all.push(none.with_greatest_normal(3.0 * much).unwrap());
+        }
+        for limits in all {
+            let outcome = LeastGrip::new().solve(&grasp, &[limits; 2], &down);
+            let grip = outcome.grip().unwrap_or_else(|| panic!("{power}: {limits:?}: {outcome:?}"));
+            assert!((grip.cost - 4.0).abs() < 4e-6 && grip.steps <= 25, "{power}: {limits:?}: {grip:?}");
+        }
+    }
+}

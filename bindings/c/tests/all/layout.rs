@@ -8,8 +8,8 @@ use std::{env, fs};
 
 use fingertip_c::{
     ft_array_reading, ft_ball, ft_beside, ft_error, ft_finger, ft_finger_limits, ft_fused, ft_fused_contact,
-    ft_grip, ft_hand_order, ft_hand_settings, ft_margin, ft_motion, ft_pose, ft_reading, ft_touch,
-    ft_touch_columns, ft_wrench, ft_wrench_columns,
+    ft_grip, ft_hand_order, ft_hand_settings, ft_margin, ft_motion, ft_object, ft_other, ft_pose, ft_quality,
+    ft_reach, ft_reading, ft_touch, ft_touch_columns, ft_uncertain_wrench, ft_wrench, ft_wrench_columns,
 };
 
 /// Size and alignment of a structure, and offset and size of each field, by their names.
@@ -73,7 +73,13 @@ fn here() -> Layout {
         }
         ft_margin { newtons, utilisation }
         ft_motion { gravity, angular_velocity, angular_acceleration }
+        ft_object { has_mass, has_centre, mass, mass_deviation, centre, centre_covariance }
+        ft_other { is_known, touches, has_line, reserved, load, statistic, point, direction, pitch }
         ft_pose { rotation, origin }
+        ft_quality {
+            rank, force_closure, certified, found, weakest, freedom_velocity, freedom_turning,
+        }
+        ft_reach { state, reserved, times }
         ft_reading { gauges, count, dummy, celsius, motion }
         ft_touch {
             resolution, slip, has_margin, alternatives, searched, reserved, wrench, point, normal, normal_force,
@@ -83,6 +89,7 @@ fn here() -> Layout {
             point_x, point_y, point_z, normal_force, tangential_x, tangential_y, tangential_z, margin,
             utilisation, slip,
         }
+        ft_uncertain_wrench { wrench, covariance }
         ft_wrench { force, torque }
         ft_wrench_columns { fx, fy, fz, tx, ty, tz }
     }
@@ -156,6 +163,7 @@ fn enumerations_are_numbers_of_32_bits() {
         size_behind(|_: &fingertip_c::ft_resolution| 0),
         size_behind(|_: &fingertip_c::ft_slip| 0),
         size_behind(|_: &fingertip_c::ft_hand_state| 0),
+        size_behind(|_: &fingertip_c::ft_reach_state| 0),
     ];
-    assert_eq!(sizes, [4; 4]);
+    assert_eq!(sizes, [4; 5]);
 }

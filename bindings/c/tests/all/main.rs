@@ -13,6 +13,7 @@
 mod columns;
 mod faults;
 mod fused;
+mod grasps;
 mod hands;
 mod layout;
 mod rests;

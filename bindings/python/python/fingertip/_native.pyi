@@ -381,12 +381,24 @@ class Grasp:
     def force_closure(self) -> bool | None: ...
     def freedoms(self) -> list[tuple[_Numbers, _Numbers, str]]: ...
     def least_grip(
-        self, load: npt.ArrayLike, *, least: float = 0.0, greatest: float | None = None
+        self,
+        load: npt.ArrayLike,
+        *,
+        least: float | Sequence[float] = 0.0,
+        greatest: float | Sequence[float] | None = None,
+        cost: float | Sequence[float] = 1.0,
+        joints: Sequence[tuple[npt.ArrayLike, npt.ArrayLike] | None] | None = None,
     ) -> list[tuple[float, _Numbers, float]]: ...
     @property
     def rank(self) -> int: ...
     def reach(
-        self, load: npt.ArrayLike, disturbance: npt.ArrayLike, *, least: float = 0.0, greatest: float | None = None
+        self,
+        load: npt.ArrayLike,
+        disturbance: npt.ArrayLike,
+        *,
+        least: float | Sequence[float] = 0.0,
+        greatest: float | Sequence[float] | None = None,
+        joints: Sequence[tuple[npt.ArrayLike, npt.ArrayLike] | None] | None = None,
     ) -> float | None: ...
     def slip_margins(
         self, forces: Sequence[tuple[float, npt.ArrayLike, float]]
@@ -408,8 +420,10 @@ class HandController:
         least_friction: float = 0.1,
         greatest_ratio: float = 3.0,
         recovery: float = 0.0,
-        least: float = 0.3,
-        greatest: float | None = None,
+        least: float | Sequence[float] = 0.3,
+        greatest: float | Sequence[float] | None = None,
+        cost: float | Sequence[float] = 1.0,
+        joints: Sequence[tuple[npt.ArrayLike, npt.ArrayLike] | None] | None = None,
         friction_noise: float | None = None,
         friction_scatter: float = 0.05,
         friction_probability: float = 0.01,
@@ -427,6 +441,14 @@ class HandController:
         load: npt.ArrayLike | None = None,
     ) -> tuple[list[float], bool | None, list[bool]]: ...
     def forget_friction(self) -> None: ...
+    def set_limits(
+        self,
+        *,
+        least: float | Sequence[float] = 0.3,
+        greatest: float | Sequence[float] | None = None,
+        cost: float | Sequence[float] = 1.0,
+        joints: Sequence[tuple[npt.ArrayLike, npt.ArrayLike] | None] | None = None,
+    ) -> None: ...
     @property
     def friction(self) -> list[tuple[float, float] | None]: ...
 
@@ -541,6 +563,9 @@ class ObjectWeight:
     def __reduce__(self) -> tuple[Any, ...]: ...
     @staticmethod
     def _from_bytes(bytes: bytes) -> ObjectWeight: ...
+    def elsewhere(
+        self, load: npt.ArrayLike, covariance: npt.ArrayLike, gravity: npt.ArrayLike | None
+    ) -> dict[str, Any] | None: ...
     def estimate(self) -> tuple[float, float, _Numbers, _Numbers] | None: ...
     def observe(self, load: npt.ArrayLike, covariance: npt.ArrayLike, gravity: npt.ArrayLike | None) -> bool: ...
     def touches_elsewhere(

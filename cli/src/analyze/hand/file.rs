@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use fingertip::hand::{ContactFriction, FingerLimits, Hand, HandSettings};
+use fingertip::hand::{ContactFriction, Hand, HandSettings};
 use fingertip::wrench::{RigidTransform, Sensor};
 use fingertip_calibration::file::read_text;
 use fingertip_scene::{Limit, Scene};
 use nalgebra::Vector3;
 use serde::Deserialize;
 
+use super::beside::{Beside, DisturbanceSection, ObjectSection, QualitySection};
+use super::limits::{LimitKeys, Limits};
 use crate::error::CliError;
 use crate::scene;
 
@@ -25,6 +27,10 @@ struct HandFile {
     #[serde(default)]
     hand: HandSection,
     finger: Vec<FingerSection>,
+    object: Option<ObjectSection>,
+    #[serde(default)]
+    disturbance: Vec<DisturbanceSection>,
+    quality: Option<QualitySection>,
 }
 
 /// `[hand]`.
@@ -72,6 +78,11 @@ struct FingerSection {
     least_normal: Option<f64>,
     #[serde(rename = "greatest_normal_N")]
     greatest_normal: Option<f64>,
+    cost: Option<f64>,
+    #[serde(rename = "greatest_torques_Nm", default)]
+    torques: Vec<f64>,
+    jacobian: Option<Vec<[f64; 6]>>,
+    jacobian_columns: Option<String>,
 }
 
 /// A hand scene that was checked.
@@ -81,6 +92,7 @@ pub(super) struct HandScene {
     pub(super) safety: f64,
     pub(super) greatest_ratio: f64,
     pub(super) fingers: Vec<FingerScene>,
+    pub(super) beside: Beside,
 }
 
 /// One finger of it.
@@ -94,7 +106,7 @@ pub(super) struct FingerScene {
     /// The prefix of the columns of its pose, before `_x_m` and the others.
     pub(super) pose_columns: Option<String>,
     pub(super) friction: ContactFriction<f64>,
-    pub(super) limits: FingerLimits<f64, 2>,
+    pub(super) limits: Limits,
 }
 
 /// The text of a file that is a hand scene: it has a key `finger`. A file that cannot be read is none, and is told of where
@@ -142,7 +154,8 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<HandScene, CliError> {
         let finger = finger(section, folder, &fingers, &bad)?;
         fingers.push(finger);
     }
-    Ok(HandScene { name: file.name, sensors_in, safety, greatest_ratio, fingers })
+    let beside = Beside::check(file.object, file.disturbance, file.quality).map_err(&bad)?;
+    Ok(HandScene { name: file.name, sensors_in, safety, greatest_ratio, fingers, beside })
 }
 
 /// `others` are the fingers before it: a scene that several have is read once.
@@ -170,16 +183,10 @@ fn finger(
     if let Some(arm) = arm {
         friction = friction.with_arm(arm).map_err(|_| must("torque_arm_m"))?;
     }
-    let mut limits = FingerLimits::none();
-    if let Some(newtons) = section.greatest_normal {
-        limits = limits
-            .with_greatest_normal(newtons)
-            .map_err(|error| named(format!("`greatest_normal_N`: {error}")))?;
-    }
-    if let Some(newtons) = section.least_normal {
-        limits =
-            limits.with_least_normal(newtons).map_err(|error| named(format!("`least_normal_N`: {error}")))?;
-    }
+    let FingerSection { least_normal, greatest_normal, cost, torques, jacobian, jacobian_columns, .. } =
+        section;
+    let keys = LimitKeys { least_normal, greatest_normal, cost, torques, jacobian, jacobian_columns };
+    let limits = keys.check().map_err(named)?;
     let fixed = section.translation != [0.0; 3] || section.rotation != [0.0; 3];
     if fixed && section.pose_columns.is_some() {
         return Err(named(

@@ -2,9 +2,12 @@
 
 use fingertip::hand::{FingerLimits, FingerState, Grasp, GraspContact, GripOutcome, Hand, LeastGrip};
 use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
+use fingertip_recordings::Row;
 use fingertip_scene::Felt;
 
+use super::beside::{Answers, Asked};
 use super::file::{FingerScene, HandScene, MOST, SensorsIn};
+use super::limits::ROWS;
 
 /// What the fingers feel in a row, in the frame of the hand.
 pub(super) struct Fingers {
@@ -27,6 +30,8 @@ pub(super) struct Grasped {
     /// The least sum of normal forces that holds the load, and each finger's \[N\].
     pub(super) least: Option<(f64, [f64; MOST])>,
     pub(super) held: &'static str,
+    /// What the scene asks for beside.
+    pub(super) answers: Answers,
 }
 
 impl Fingers {
@@ -59,12 +64,13 @@ impl Fingers {
 
 impl Grasped {
     /// The program starts from the last row's solution. Where a finger says what cannot be, what the others are to bear is
-    /// not known, and the least grip is not asked for.
+    /// not known, and neither the least grip nor how far disturbances can grow is asked for.
     pub(super) fn of(
         fingers: Fingers,
-        limits: &[FingerLimits<f64, 2>; MOST],
+        limits: &[FingerLimits<f64, ROWS>; MOST],
         scene: &HandScene,
-        program: &mut LeastGrip<f64, MOST, 2>,
+        program: &mut LeastGrip<f64, MOST, ROWS>,
+        (asked, row, time): (&mut Asked<'_>, &Row<'_>, f64),
     ) -> Self {
         let Fingers { fingers, load } = fingers;
         let (grasp, forces) = Grasp::of_fingers(&fingers);
@@ -77,12 +83,14 @@ impl Grasped {
         // A safety that leaves no friction leaves no contact: it was checked, and friction is not that small.
         let careful =
             contacts.map(|contact| contact.and_then(|contact| contact.with_safety(scene.safety).ok()));
-        let (least, held) = if !fingers.iter().all(|finger| finger.is_plausible(scene.greatest_ratio)) {
+        let careful = Grasp::new(careful);
+        let plausible = fingers.iter().all(|finger| finger.is_plausible(scene.greatest_ratio));
+        let (least, held) = if !plausible {
             (None, "doubtful")
         } else if grasp.touching() == 0 {
             (None, "")
         } else {
-            match program.solve(&Grasp::new(careful), limits, &load) {
+            match program.solve(&careful, limits, &load) {
                 GripOutcome::Held(grip) => {
                     let each = grip.forces.map(|force| force.normal);
                     (Some((each.iter().sum(), each)), "held")
@@ -92,7 +100,13 @@ impl Grasped {
                 GripOutcome::Undecided => (None, "undecided"),
             }
         };
-        Self { contacts, forces, load, margins, grip, squeeze, least, held }
+        let known = (plausible && grasp.touching() > 0).then_some(&load);
+        let answers = Answers {
+            other: asked.other(row, &load),
+            reaches: asked.reaches(&careful, limits, known),
+            quality: asked.quality(time, &careful),
+        };
+        Self { contacts, forces, load, margins, grip, squeeze, least, held, answers }
     }
 
     /// The least of the margins \[N\].

@@ -1,7 +1,9 @@
 //! `fingertip analyze` with a hand scene: several sensors of one recording, which hold one object together.
 
+mod beside;
 mod file;
 mod grasped;
+mod limits;
 mod page;
 mod table;
 
@@ -23,8 +25,10 @@ use crate::opened::{Opened, Rows};
 use crate::report;
 use crate::several;
 use crate::span::{Place, Window};
+use beside::Asked;
 use file::{FingerScene, HandScene, MOST};
 use grasped::{Fingers, Grasped};
+use limits::{JacobianColumns, ROWS};
 use page::Seen;
 use table::GraspWriter;
 
@@ -61,9 +65,18 @@ fn one(
     for finger in &scene.fingers {
         tips.push(Tip::new(finger, recording, arguments, &mut reader)?);
     }
+    let Some(asked) = Asked::new(&scene.beside, &mut reader) else {
+        let names = scene.beside.gravity_names().join(", ");
+        return Err(lacks(
+            &reader,
+            &format!(
+                "{names}, which are gravity in the hand; add them, or give `gravity_m_per_s2` in the place of `gravity_columns`"
+            ),
+        ));
+    };
     let mut writer = GraspWriter::create(output, outputs, scene)?;
     let mut seen = Seen::new(scene);
-    read(scene, &mut tips, &mut reader, Window::new(arguments.span), &mut writer, &mut seen)?;
+    read(scene, &mut tips, asked, &mut reader, Window::new(arguments.span), &mut writer, &mut seen)?;
     bar.finish_and_clear();
     for (tip, finger) in tips.iter().zip(&scene.fingers) {
         if let Some(rest) = tip.source.unfinished_rest() {
@@ -114,6 +127,8 @@ struct Tip {
     pipeline: Pipeline<f64>,
     /// The columns of its pose, where it is not fixed.
     pose: Option<PoseColumns>,
+    /// The columns of its Jacobian; none where it is fixed.
+    jacobian: JacobianColumns,
 }
 
 impl Tip {
@@ -130,7 +145,17 @@ impl Tip {
             Some(prefix) => Some(pose_columns(prefix, finger, reader)?),
             None => None,
         };
-        Ok(Self { source, pipeline: finger.scene.pipeline(), pose })
+        let Some(jacobian) = finger.limits.columns(reader) else {
+            let (names, name) = (finger.limits.names().join(", "), &finger.name);
+            return Err(lacks(
+                reader,
+                &format!(
+                    "{names}, which are the Jacobian of the finger {name:?}; add them, or give a fixed `jacobian` in the place of \
+                 `jacobian_columns`"
+                ),
+            ));
+        };
+        Ok(Self { source, pipeline: finger.scene.pipeline(), pose, jacobian })
     }
 
     /// Its pose in a row; `None` if a number is missing or the quaternion is none.
@@ -142,29 +167,32 @@ impl Tip {
 
 fn pose_columns(prefix: &str, finger: &FingerScene, reader: &mut Rows) -> Result<PoseColumns, CliError> {
     PoseColumns::of(prefix, reader).ok_or_else(|| {
-        let message = format!(
-            "has no columns {}, which tell where the sensor of the finger {:?} is in the hand; add them, or give it a fixed \
-             pose by `translation_m` and `rotation_deg` in the place of `pose_columns`",
+        let what = format!(
+            "{}, which tell where the sensor of the finger {:?} is in the hand; add them, or give it a fixed pose by \
+             `translation_m` and `rotation_deg` in the place of `pose_columns`",
             PoseColumns::names(prefix).join(", "),
             finger.name
         );
-        CliError::Calibrate { path: reader.file().into(), message }
+        lacks(reader, &what)
     })
+}
+
+/// That a recording lacks columns.
+fn lacks(reader: &Rows, what: &str) -> CliError {
+    CliError::Calibrate { path: reader.file().into(), message: format!("has no columns {what}") }
 }
 
 /// Reads a recording to its end.
 fn read(
     scene: &HandScene,
     tips: &mut [Tip],
+    mut asked: Asked<'_>,
     reader: &mut Rows,
     mut window: Window,
     writer: &mut GraspWriter,
     seen: &mut Seen,
 ) -> Result<(), CliError> {
-    let mut limits = [FingerLimits::none(); MOST];
-    for (limits, finger) in limits.iter_mut().zip(&scene.fingers) {
-        *limits = finger.limits;
-    }
+    let mut limits = [FingerLimits::<f64, ROWS>::none(); MOST];
     let mut program = LeastGrip::new();
     let mut statuses = vec![Status::UnusableRow; tips.len()];
     while let Some(row) = reader.next_row()? {
@@ -185,6 +213,11 @@ fn read(
                 tip.pipeline.start_anew();
             }
             let pose = tip.pose(finger, &row);
+            match (finger.limits.at(&tip.jacobian, &row), limits.get_mut(index)) {
+                (Some(now), Some(limits)) => *limits = now,
+                // As one without a pose.
+                _ => whole = false,
+            }
             match (tip.source.read(&row, now)?, pose) {
                 (Reading::Wrench(wrench), Some(pose)) if place == Place::Within => {
                     if tip.pipeline.awaits_noise() {
@@ -203,9 +236,10 @@ fn read(
             Place::Behind => break,
             Place::Within => {}
         }
-        let grasped = whole.then(|| Grasped::of(fingers, &limits, scene, &mut program));
+        let beside = (&mut asked, &row, time);
+        let grasped = whole.then(|| Grasped::of(fingers, &limits, scene, &mut program, beside));
         writer.write(time, &statuses, grasped.as_ref())?;
-        seen.add(time, grasped.as_ref());
+        seen.add(time, grasped.as_ref(), &scene.beside);
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::beside::Beside;
 use super::file::{HandScene, MOST};
 use super::grasped::Grasped;
 use crate::observe::{Quantiles, Trace};
@@ -33,6 +34,8 @@ pub(super) struct Seen {
     unusable: u64,
     /// Of the rows where any finger touches: grip, squeeze, least grip, load, margin \[N\].
     spread: [Quantiles; 5],
+    /// The same of what the scene asks for beside, by what it is.
+    beside: Vec<(String, Quantiles)>,
     trace: Trace<CURVES>,
     times: (f64, f64),
     /// Of sums of normal forces, of loads, and of normal forces \[N\].
@@ -54,6 +57,7 @@ impl Seen {
             doubtful: 0,
             unusable: 0,
             spread: Default::default(),
+            beside: scene.beside.names().into_iter().map(|name| (name, Quantiles::default())).collect(),
             trace: Trace::default(),
             times: (f64::INFINITY, f64::NEG_INFINITY),
             greatest: [0.0; 3],
@@ -65,7 +69,7 @@ impl Seen {
         self.rows
     }
 
-    pub(super) fn add(&mut self, time: f64, grasped: Option<&Grasped>) {
+    pub(super) fn add(&mut self, time: f64, grasped: Option<&Grasped>, beside: &Beside) {
         self.rows += 1;
         let mut values = [f64::NAN; CURVES];
         if time.is_finite() {
@@ -91,6 +95,11 @@ impl Seen {
             }
             let told = [Some(grasped.grip), Some(grasped.squeeze), least, Some(load), margin];
             for (spread, value) in self.spread.iter_mut().zip(told) {
+                if let Some(value) = value {
+                    spread.add(value);
+                }
+            }
+            for ((_, spread), value) in self.beside.iter_mut().zip(grasped.answers.told(beside)) {
                 if let Some(value) = value {
                     spread.add(value);
                 }
@@ -178,7 +187,8 @@ impl Seen {
             "load: sum of all forces",
             "margin of the contact nearest to slipping",
         ];
-        for (name, spread) in names.into_iter().zip(&self.spread) {
+        let beside = self.beside.iter().map(|(name, spread)| (name.as_str(), spread));
+        for (name, spread) in names.into_iter().zip(&self.spread).chain(beside) {
             let at = |share| number_or_dash(spread.quantile(share));
             table.row([
                 name.to_owned(),

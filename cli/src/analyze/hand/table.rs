@@ -3,7 +3,10 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use fingertip::hand::Reach;
+
 use super::super::cells::Cells;
+use super::beside::Answers;
 use super::file::{HandScene, MOST};
 use super::grasped::Grasped;
 use crate::error::CliError;
@@ -28,11 +31,43 @@ const OF_GRASP: [&str; 11] = [
     "held",
 ];
 
+/// The columns of what else touches the object: its wrench, and the line of its force.
+const OF_OTHER: [&str; 13] = [
+    "other_fx_N",
+    "other_fy_N",
+    "other_fz_N",
+    "other_tx_Nm",
+    "other_ty_Nm",
+    "other_tz_Nm",
+    "other_x_m",
+    "other_y_m",
+    "other_z_m",
+    "other_dx",
+    "other_dy",
+    "other_dz",
+    "other_pitch_m",
+];
+
+/// The columns of the quality.
+const OF_QUALITY: [&str; 9] = [
+    "closure",
+    "ball_N",
+    "ball_found_N",
+    "weakest_fx_N",
+    "weakest_fy_N",
+    "weakest_fz_N",
+    "weakest_tx_Nm",
+    "weakest_ty_Nm",
+    "weakest_tz_Nm",
+];
+
 /// Writes one row per sample; a cell without a value is empty, numbers have eight significant digits.
 pub(super) struct GraspWriter {
     out: Whole,
     path: PathBuf,
     cells: Cells,
+    /// How many columns there are of what else touches, of disturbances, and of the quality.
+    beside: [usize; 3],
 }
 
 impl GraspWriter {
@@ -43,7 +78,14 @@ impl GraspWriter {
             names.extend(OF_FINGER.iter().map(|column| format!("{}_{column}", finger.name)));
         }
         names.extend(OF_GRASP.iter().map(|column| (*column).to_owned()));
-        let mut writer = Self { out, path: path.to_owned(), cells: Cells::default() };
+        let beside = &scene.beside;
+        let other = if beside.knows_object() { &OF_OTHER[..] } else { &[] };
+        let quality = if beside.asks_quality() { &OF_QUALITY[..] } else { &[] };
+        names.extend(other.iter().map(|column| (*column).to_owned()));
+        names.extend(beside.disturbances.iter().map(|(name, _)| format!("reach_{name}")));
+        names.extend(quality.iter().map(|column| (*column).to_owned()));
+        let beside = [other.len(), beside.disturbances.len(), quality.len()];
+        let mut writer = Self { out, path: path.to_owned(), cells: Cells::default(), beside };
         writer.cells.put(names.join(",").as_bytes());
         writer.end_line()?;
         Ok(writer)
@@ -83,7 +125,43 @@ impl GraspWriter {
             }
             None => OF_GRASP.iter().for_each(|_| self.number(None)),
         }
+        match grasped {
+            Some(all) => self.beside(&all.answers),
+            None => (0..self.beside.iter().sum()).for_each(|_| self.number(None)),
+        }
         self.end_line()
+    }
+
+    /// What the scene asks for beside; a cell for each of its columns.
+    fn beside(&mut self, answers: &Answers) {
+        let [other, _, quality] = self.beside;
+        let mut numbers = [f64::NAN; OF_OTHER.len()];
+        if let Some(found) = &answers.other {
+            let line = found.line.map(|line| {
+                let (point, direction) = (line.line.point, line.line.direction);
+                [point.x, point.y, point.z, direction.x, direction.y, direction.z, line.pitch]
+            });
+            let wrench: [f64; 6] = found.wrench.components().into();
+            for (to, from) in numbers.iter_mut().zip(wrench.into_iter().chain(line.into_iter().flatten())) {
+                *to = from;
+            }
+        }
+        numbers.iter().take(other).for_each(|x| self.number(Some(*x)));
+        for reach in &answers.reaches {
+            match reach {
+                Reach::Times(times) => self.number(Some(*times)),
+                Reach::Unlimited => self.word("inf"),
+                Reach::NotHeld | Reach::Unknown => self.number(None),
+            }
+        }
+        match answers.quality.filter(|_| quality > 0) {
+            Some(found) => {
+                self.word(found.closure.map_or("", |closed| if closed { "yes" } else { "no" }));
+                [found.ball.certified, found.ball.found].into_iter().for_each(|x| self.number(Some(x)));
+                found.ball.weakest.components().iter().for_each(|x| self.number(Some(*x)));
+            }
+            None => (0..quality).for_each(|_| self.number(None)),
+        }
     }
 
     /// Writes what is left.
