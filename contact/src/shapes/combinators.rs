@@ -13,6 +13,9 @@ use crate::soft_finger::closed_form::is_pure_force;
 use crate::soft_finger::double::{in_type, narrow, widened};
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
+/// The square of the least cosine of incidence at which a posed shape in a narrower type takes the short way.
+const STEEPER: f64 = 0.13;
+
 /// The contacts of a posed shape by those of the shape, under the wrench in its frame.
 fn moved<T: Real, S: SoftFingerSurface<T>>(
     posed: &Posed<T, S>,
@@ -75,13 +78,21 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         if any { Search::Incomplete } else { search }
     }
 
+    /// In a narrower type only of a force that presses a little more steeply than the shape asks for: moving the wrench has
+    /// rounded it, too.
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         let pose = self.sensor_from_shape();
-        self.inner().sole_soft_contact(&push.seen_from(pose)).map(|contact| SoftContact {
+        let found = self.inner().sole_soft_contact(&push.seen_from(pose)).map(|contact| SoftContact {
             point: pose.transform_point(&contact.point),
             normal: pose.rotate(&contact.normal),
             ..contact
+        });
+        found.filter(|contact| {
+            let pressing = push.force().dot(&contact.normal);
+            T::CARRIES_MORE
+                || T::EPSILON.to_f64() <= f64::EPSILON
+                || pressing * pressing >= T::literal(STEEPER) * push.squared()
         })
     }
 
