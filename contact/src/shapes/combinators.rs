@@ -2,6 +2,7 @@
 
 use fingertip_surfaces::is_inside_along;
 use fingertip_surfaces::numeric::fine_pose::FinePose;
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::{
     ActiveSurface, Compound, ForceLine, Offset, Posed, Region, SignedDistance, SmoothSurface, Trimmed,
@@ -53,7 +54,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         last: Option<&Vector3<T>>,
         mut visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        if T::CARRIES_MORE || T::EPSILON.to_f64() <= f64::EPSILON {
+        if !is_asked_again::<T>() {
             return moved(self, wrench, last, visit);
         }
         let ended = match self.soft_contact_in_double(&widened(wrench)) {
@@ -90,9 +91,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         });
         found.filter(|contact| {
             let pressing = push.force().dot(&contact.normal);
-            T::CARRIES_MORE
-                || T::EPSILON.to_f64() <= f64::EPSILON
-                || pressing * pressing >= T::literal(STEEPER) * push.squared()
+            !is_asked_again::<T>() || pressing * pressing >= T::literal(STEEPER) * push.squared()
         })
     }
 
