@@ -1,6 +1,7 @@
 /*
  * Plays the session of session.h through an exported scene: prints a number for all bits of every answer, and what a
- * sample costs. Each answer is compared with that of the scene itself, as `fingertip export` worked it out in Rust.
+ * sample costs. Each answer is compared with that of the scene itself, as `fingertip export` worked it out in Rust: bit for
+ * bit, or, where session.h says how near they shall be, point and normal to that.
  */
 #include "board.h"
 #include "session.h"
@@ -32,6 +33,19 @@ static uint32_t fold(const tip_touch *answer) {
     }
     return sum;
 }
+
+#ifdef TIP_NEAR
+/* The largest part by which two vectors differ, or a number beyond every tolerance. */
+static float apart(const float *one, const float *other) {
+    float largest = 0.0f;
+    for (uint32_t i = 0; i < 3; ++i) {
+        const float part = one[i] > other[i] ? one[i] - other[i] : other[i] - one[i];
+        if (!(part <= 1.0f)) return 2.0f;
+        if (part > largest) largest = part;
+    }
+    return largest;
+}
+#endif
 
 static uint32_t sense(tip_state *tip, uint32_t sample) {
 #ifdef TIP_TAKES_CELSIUS
@@ -75,6 +89,10 @@ int main(void) {
     (void)nothing(&state, 0);
     const uint32_t call = counter_instructions(start, counter_now());
     uint32_t different = 0, contacts = 0;
+#ifdef TIP_NEAR
+    uint32_t equal = 0;
+    float far = 0.0f, turned = 0.0f;
+#endif
     for (uint32_t sample = 0; sample < TIP_SAMPLES; ++sample) {
         start = counter_now();
         const uint32_t resolution = sense(&state, sample);
@@ -86,7 +104,16 @@ int main(void) {
         say(" ");
         say_number(sum);
         say("\n");
+#ifdef TIP_NEAR
+        const float off = apart(touch.point, tip_expected_point[sample]);
+        const float turn = apart(touch.normal, tip_expected_normal[sample]);
+        different += resolution != tip_expected_resolution[sample] || !(off <= TIP_NEAR) || !(turn <= TIP_NEAR_NORMAL);
+        if (off > far) far = off;
+        if (turn > turned) turned = turn;
+        equal += sum == tip_expected[sample];
+#else
         different += sum != tip_expected[sample];
+#endif
         contacts += resolution == 0;
     }
     stack_paint();
@@ -100,5 +127,15 @@ int main(void) {
         say_number(numbers[i]);
     }
     say("\n");
+#ifdef TIP_NEAR
+    /* Equal answers, nanometres, millionths. */
+    say("near ");
+    say_number(equal);
+    say(" ");
+    say_number((uint32_t)(far * 1e9f));
+    say(" ");
+    say_number((uint32_t)(turned * 1e6f));
+    say("\n");
+#endif
     return 0;
 }

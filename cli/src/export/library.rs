@@ -22,6 +22,10 @@ pub(crate) struct LibraryArguments {
     /// With --c: the target as Rust names it, such as thumbv7em-none-eabihf; without it, this computer
     #[arg(long, value_name = "TARGET", requires = "c")]
     target: Option<String>,
+    /// With --c: single precision that is never refined in double: a smaller library, less exact at flat angles and under
+    /// large spin torques
+    #[arg(long, requires = "c")]
+    single_only: bool,
     /// With --c: what the names of the functions begin with
     #[arg(long, value_name = "NAME", default_value = "tip", requires = "c")]
     name: String,
@@ -40,7 +44,7 @@ pub(super) fn run(
     arguments: &LibraryArguments,
     overwrite: Overwrite,
 ) -> Result<(), CliError> {
-    let LibraryArguments { output, target, name, source, build } = arguments;
+    let LibraryArguments { output, target, single_only, name, source, build } = arguments;
     // The parser asks for it.
     let folder = output.as_deref().unwrap_or(Path::new("."));
     let [library_file, header_file, cost_file] =
@@ -51,7 +55,11 @@ pub(super) fn run(
     if let Some(calibration) = calibration {
         scene = scene.calibrated_by(calibration).map_err(|error| failed(&error))?;
     }
+    if *single_only && matches!(scalar, Scalar::F64) {
+        return Err(failed(&"--single-only is for single precision, and --scalar f64 was asked for"));
+    }
     let library = scene.to_c(scalar, None, name).map_err(|error| failed(&error))?;
+    let library = if *single_only { library.without_mixed_precision() } else { library };
     let mut notes: Vec<String> = library
         .untold()
         .iter()

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::build::{Build, BuildError, run, write};
-use super::session::Session;
+use super::session::{NEAR, Session};
 
 /// The programs that play it, which examples/cortex-m4-c explains.
 const FILES: [(&str, &str); 5] = [
@@ -36,6 +36,9 @@ const CORE: [&str; 5] =
 pub(super) struct Played {
     samples: u32,
     contacts: u32,
+    /// Of a library in single precision alone: how many answers are the scene's to the last bit, by how many nanometres
+    /// points differ at most, and normals by how many millionths.
+    near: Option<[u32; 3]>,
     /// Instructions of a sample, median and greatest, and bytes of stack: where they are counted.
     counted: Option<[u32; 3]>,
     /// Bytes of code and constants of a sample, and with the beginning of a fingertip.
@@ -96,10 +99,24 @@ pub(super) fn play(
     let cost = said.lines().find_map(|line| line.strip_prefix("cost ")).ok_or_else(|| bad(&said))?;
     let numbers: Vec<u32> = cost.split(' ').filter_map(|word| word.parse().ok()).collect();
     let [samples, contacts, different, median, greatest, stack] = numbers[..] else { return Err(bad(&said)) };
+    let near = said.lines().find_map(|line| line.strip_prefix("near ")).and_then(told_near);
     if different > 0 {
-        return Err(bad(&format!("{different} of {samples} answers are not the scene's, bit for bit")));
+        let how = near.map_or_else(|| "bit for bit".to_owned(), |_| tolerance());
+        return Err(bad(&format!("{different} of {samples} answers are not the scene's, {how}")));
     }
-    Ok(Ok(Played { samples, contacts, counted: flash.map(|_| [median, greatest, stack]), flash }))
+    Ok(Ok(Played { samples, contacts, near, counted: flash.map(|_| [median, greatest, stack]), flash }))
+}
+
+/// Equal answers, nanometres and millionths.
+fn told_near(line: &str) -> Option<[u32; 3]> {
+    let numbers: Vec<u32> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
+    numbers.try_into().ok()
+}
+
+/// How near the answers of a library in single precision alone shall be.
+fn tolerance() -> String {
+    let [point, normal] = NEAR;
+    format!("points to {} mm and normals to {normal}", point * 1e3)
 }
 
 /// What the firmware says in the emulator, where each instruction takes 1.024 µs.
@@ -147,9 +164,16 @@ fn weighed(folder: &Path, library: &Path, name: &str, calls: &[&str]) -> Result<
 impl Played {
     /// The table.
     pub(super) fn text(&self, scene: &str, target: Option<&str>, state: usize) -> String {
-        let Self { samples, contacts, counted, flash } = self;
+        let Self { samples, contacts, near, counted, flash } = self;
+        let how = match near {
+            None => "bit for bit".to_owned(),
+            Some([equal, far, turned]) => format!(
+                "{}: {equal} of them bit for bit, points within {far} nm, normals within {turned}e-6",
+                tolerance()
+            ),
+        };
         let mut text = format!(
-            "{scene}, for {}: {samples} answers ({contacts} contacts) are the scene's, bit for bit.\n",
+            "{scene}, for {}: {samples} answers ({contacts} contacts) are the scene's, {how}.\n",
             target.unwrap_or("this computer")
         );
         // Writing to a string cannot fail.

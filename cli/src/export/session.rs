@@ -24,6 +24,9 @@ pub(super) struct Session {
     pub(super) text: String,
 }
 
+/// How far a point [m] and a normal of a library in single precision alone may be from those of the scene.
+pub(super) const NEAR: [f64; 2] = [1e-5, 1e-3];
+
 /// What draws samples for a scene.
 struct Drawn<'a, T: Real> {
     random: Pcg64Mcg,
@@ -85,7 +88,7 @@ impl Session {
         let random = Pcg64Mcg::seed_from_u64(7);
         let mut drawn = Drawn { random, scene, celsius, takes_gauges: library.takes_gauges() };
         let mut pipeline = scene.pipeline_in::<T>()?;
-        let (mut samples, mut sums) = (Vec::new(), Vec::new());
+        let (mut samples, mut sums, mut told) = (Vec::new(), Vec::new(), Vec::new());
         while samples.len() < SAMPLES {
             let wanted = if samples.len() % 10 == 9 { 1 } else { TRIES };
             let mut sample = drawn.sample();
@@ -99,9 +102,14 @@ impl Session {
             // A reading that is saturated is no sample.
             let Some(felt) = drawn.felt(&mut pipeline, &sample) else { continue };
             sums.push(fold(felt, library));
+            told.push(Told::of(felt));
             samples.push(sample);
         }
-        Ok(Self { text: written(&samples, &sums, library, celsius) })
+        let mut text = written(&samples, &sums, library, celsius);
+        if !library.is_exact() {
+            text.push_str(&near(&told));
+        }
+        Ok(Self { text })
     }
 }
 
@@ -132,6 +140,52 @@ fn written<T: Real>(samples: &[Vec<T>], sums: &[u32], library: &CLibrary, celsiu
     text
 }
 
+/// What the answer of a library in single precision alone is compared with.
+struct Told {
+    resolution: u32,
+    point: [f64; 3],
+    normal: [f64; 3],
+}
+
+impl Told {
+    fn of<T: Real>(felt: &Felt<T>) -> Self {
+        let vector = |vector: Option<Vector3<T>>| {
+            vector.map_or([0.0; 3], |vector| <[T; 3]>::from(vector).map(Real::to_f64))
+        };
+        Self {
+            resolution: resolution(felt),
+            point: vector(felt.contact().map(|contact| contact.point)),
+            normal: vector(felt.contact().map(|contact| contact.normal)),
+        }
+    }
+}
+
+/// How near answers shall be, and to what, for `session.h`.
+fn near(told: &[Told]) -> String {
+    let [point, normal] = NEAR;
+    let rows = |of: &dyn Fn(&Told) -> [f64; 3]| {
+        told.iter()
+            .map(|told| format!("    {{{}}},\n", of(told).map(|x| format!("{x:e}f")).join(", ")))
+            .collect::<String>()
+    };
+    let resolutions: Vec<String> = told.iter().map(|told| format!("{}u", told.resolution)).collect();
+    format!(
+        "/* How far a point [m] and a normal may be from these. */\n#define TIP_NEAR {point:e}f\n\
+         #define TIP_NEAR_NORMAL {normal:e}f\n\
+         static const uint32_t tip_expected_resolution[TIP_SAMPLES] = {{{}}};\n\
+         static const float tip_expected_point[TIP_SAMPLES][3] = {{\n{}}};\n\
+         static const float tip_expected_normal[TIP_SAMPLES][3] = {{\n{}}};\n",
+        resolutions.join(", "),
+        rows(&|told| told.point),
+        rows(&|told| told.normal),
+    )
+}
+
+/// The number of a resolution for C.
+fn resolution<T: Real>(felt: &Felt<T>) -> u32 {
+    felt.touch.resolution.into_result().map_or_else(|why| why.number(), |_| 0)
+}
+
 /// A number for all bits of an answer: FNV-1a over the words of the structure that C gets.
 fn fold<T: Real>(felt: &Felt<T>, library: &CLibrary) -> u32 {
     let touch = &felt.touch;
@@ -154,7 +208,7 @@ fn fold<T: Real>(felt: &Felt<T>, library: &CLibrary) -> u32 {
         numbers.push(felt.grip_force.unwrap_or(zero));
     }
     let mut words = vec![
-        touch.resolution.into_result().map_or_else(|why| why.number(), |_| 0),
+        resolution(felt),
         touch.slip.map_or(0, |slip| slip as u32),
         u32::from(margin.is_some()),
         contact.map_or(0, |contact| u32::from(contact.alternatives)),

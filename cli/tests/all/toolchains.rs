@@ -164,6 +164,35 @@ fn tools_are_called_as_they_were() {
     assert_accepted("export_calls.txt", &told);
 }
 
+/// In single precision alone a library is compared by a tolerance, and the package leaves the refinement out.
+#[test]
+fn single_precision_alone_is_near_the_scene() {
+    let tools = Tools::new();
+    let answers = |said: &str| {
+        format!("echo '#!/bin/sh\necho \"cost 200 183 {said}\"' >\"$last\"\n/bin/chmod +x \"$last\"\n")
+    };
+    tools.set("cc", &answers("0 0 0 0\nnear 170 2500 36"));
+    let said = tools.succeed(&["--single-only"]);
+    let how = "are the scene's, points to 0.01 mm and normals to 0.001: 170 of them bit for bit, points within 2500 nm, \
+               normals within 36e-6.";
+    assert!(said.contains(how), "{said}");
+    assert!(!tools.0.read("made/package/Cargo.toml").contains("mixed-precision"));
+    let session = tools.0.read("made/firmware/session.h");
+    for part in [
+        "#define TIP_NEAR 1e-5f\n",
+        "tip_expected_point[TIP_SAMPLES][3]",
+        "tip_expected_resolution[TIP_SAMPLES]",
+    ] {
+        assert!(session.contains(part), "{part}: {session}");
+    }
+    let tools = Tools::new();
+    tools.set("cc", &answers("3 0 0 0\nnear 170 250000 36"));
+    let error = tools.fail(&["--single-only"]);
+    assert!(error.contains("3 of 200 answers are not the scene's, points to 0.01 mm"), "{error}");
+    let error = Tools::new().fail(&["--single-only", "--scalar", "f64"]);
+    assert!(error.contains("--single-only is for single precision"), "{error}");
+}
+
 /// A compiler that has the sources of the standard library compiles these, too; what nothing plays is said.
 #[test]
 fn a_target_without_a_library_is_compiled_from_sources() {

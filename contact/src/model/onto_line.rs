@@ -1,5 +1,6 @@
 //! What rounding did to a contact that the force meets at a flat angle, undone.
 
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::{largest, wide};
 use fingertip_surfaces::{ActiveSurface, Shortcuts};
@@ -102,7 +103,7 @@ pub(super) fn in_double<T: Real, S: ActiveSurface<T>>(
     surface: &S,
     near: &Vector3<T>,
 ) -> Option<(Vector3<T>, Vector3<T>)> {
-    if T::CARRIES_MORE || T::EPSILON.to_f64() <= f64::EPSILON {
+    if !is_asked_again::<T>() {
         return None;
     }
     // In range: the squares of all numbers of a narrower type are.

@@ -2,6 +2,7 @@
 
 use fingertip_surfaces::is_inside_along;
 use fingertip_surfaces::numeric::fine_pose::FinePose;
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::{
     ActiveSurface, Compound, ForceLine, Offset, Posed, Region, SignedDistance, SmoothSurface, Trimmed,
@@ -12,6 +13,9 @@ use nalgebra::{Rotation3, Vector3};
 use crate::soft_finger::closed_form::is_pure_force;
 use crate::soft_finger::double::{in_type, narrow, widened};
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
+
+/// The square of the least cosine of incidence at which a posed shape in a narrower type takes the short way.
+const STEEPER: f64 = 0.13;
 
 /// The contacts of a posed shape by those of the shape, under the wrench in its frame.
 fn moved<T: Real, S: SoftFingerSurface<T>>(
@@ -50,7 +54,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         last: Option<&Vector3<T>>,
         mut visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        if T::CARRIES_MORE || T::EPSILON.to_f64() <= f64::EPSILON {
+        if !is_asked_again::<T>() {
             return moved(self, wrench, last, visit);
         }
         let ended = match self.soft_contact_in_double(&widened(wrench)) {
@@ -75,13 +79,19 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         if any { Search::Incomplete } else { search }
     }
 
+    /// In a narrower type only of a force that presses a little more steeply than the shape asks for: moving the wrench has
+    /// rounded it, too.
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         let pose = self.sensor_from_shape();
-        self.inner().sole_soft_contact(&push.seen_from(pose)).map(|contact| SoftContact {
+        let found = self.inner().sole_soft_contact(&push.seen_from(pose)).map(|contact| SoftContact {
             point: pose.transform_point(&contact.point),
             normal: pose.rotate(&contact.normal),
             ..contact
+        });
+        found.filter(|contact| {
+            let pressing = push.force().dot(&contact.normal);
+            !is_asked_again::<T>() || pressing * pressing >= T::literal(STEEPER) * push.squared()
         })
     }
 

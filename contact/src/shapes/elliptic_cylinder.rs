@@ -2,12 +2,15 @@
 
 use crate::uncertainty::geometry::stretched;
 use fingertip_surfaces::numeric::vectors::smaller;
-use fingertip_surfaces::{ActiveSurface, CylinderEnds, EllipticCylinder, LocalSurface, SmoothSurface};
+use fingertip_surfaces::{
+    ActiveSurface, CylinderEnds, EllipticCylinder, ForceLine, LocalSurface, SmoothSurface,
+};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::cylinder::on_cylinder;
 use super::plane::on_plane;
+use super::slanted_side::is_steep;
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::rim::on_elliptic_rim;
@@ -73,6 +76,85 @@ fn on_elliptic_end<T: Real>(
     found.map(|contact| SoftContact { point: contact.point + origin, ..contact })
 }
 
+/// The contact of a force that presses steeply, on the side or within the flat end that it presses on. Edges, and what
+/// is near to them, take the long way.
+#[inline(always)]
+fn steeply_on_elliptic_cylinder<T: Real>(
+    shape: &EllipticCylinder<T>,
+    push: &ForceLine<T>,
+) -> Option<SoftContact<T>> {
+    let side = steeply_on_side(shape, push);
+    let half = match shape.ends() {
+        CylinderEnds::Unbounded => return side,
+        CylinderEnds::Open(half) => {
+            return side.map(|contact| SoftContact { active: contact.point.z.abs() <= half, ..contact });
+        }
+        CylinderEnds::Capped(half) => half,
+    };
+    let [a, b] = shape.semi_axes();
+    let hair = (half + a + b) * (T::literal(64.0) * T::EPSILON);
+    if let Some(contact) = side
+        && contact.point.z.abs() <= half - hair
+    {
+        return Some(contact);
+    }
+    let (force, torque) = (push.force(), push.torque());
+    let normal = -Vector3::z() * force.z.signum();
+    let share = T::one() / force.z.abs();
+    let spin_torque = -force.dot(&torque) * share;
+    let away = (torque - normal.cross(&force) * half).cross(&normal) * share;
+    let inner = T::one() - hair / smaller(a, b);
+    let [ka, kb] = shape.curvatures();
+    let (x, y) = (away.x * ka, away.y * kb);
+    let steep = is_steep(push, force.z, spin_torque * (ka + kb));
+    let inside = x * x + y * y <= inner * inner.max(T::zero());
+    (steep & inside).then(|| SoftContact { point: away + normal * half, normal, spin_torque, active: true })
+}
+
+/// On the side, unbounded, for a force that presses at no flat angle and a spin torque that does not rule.
+///
+/// Over the semi-axes it is round: `y` of [`on_cylinder`] is where on the unit circle. As for round sides
+/// (`docs/theory/contact.md#straight-sides`) the rest follows from the normal, with `ρ` the point of the outline there and
+/// `a` along the axis:
+///
+/// ```text
+/// p = −f·n,   τ = −f·m/p,   z = (m·(n × a) − (ρ·n) f·a)/p
+/// ```
+#[inline(always)]
+fn steeply_on_side<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    let ([a, b], [ka, kb]) = (shape.semi_axes(), shape.curvatures());
+    let (f, m) = (push.force(), push.torque());
+    let (fx, fy, turning) = (f.x * ka, f.y * kb, m.z * ka * kb);
+    let squared = fx * fx + fy * fy;
+    let root_squared = squared - turning * turning;
+    // Not where the torque hides the force, and the root loses digits. False for a NaN, too.
+    let wide = root_squared >= squared * T::literal(0.06);
+    if !(wide & (squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST)) {
+        return None;
+    }
+    let (root, inverse) = (root_squared.root(), T::one() / squared);
+    let (x, y) = ((fy * turning - fx * root) * inverse, (-fx * turning - fy * root) * inverse);
+    let (gx, gy) = (x * ka, y * kb);
+    // How far the tangent is from the axis: `ρ·n`.
+    let support = T::one() / (gx * gx + gy * gy).root();
+    let (nx, ny) = (gx * support, gy * support);
+    let pressing = -(f.x * nx + f.y * ny);
+    let share = T::one() / pressing;
+    let spin_torque = -f.dot(&m) * share;
+    let height = (m.x * ny - m.y * nx - support * f.z) * share;
+    // What rounding does is multiplied by no more than `(1 + |τ κ|/|f|)²/(f·n/|f|)²`, with the curvature of the outline.
+    let bend = ka * kb * support;
+    let twist = spin_torque * (bend * bend * support);
+    let is_steady = is_steep(push, pressing, twist);
+    let point = Vector3::new(x * a, y * b, height);
+    (is_steady & (pressing > T::zero()) & height.is_number()).then(|| SoftContact {
+        point,
+        normal: Vector3::new(nx, ny, T::zero()),
+        spin_torque,
+        active: true,
+    })
+}
+
 /// In double precision if the type is narrower and rounding decides between the side and an end.
 fn on_elliptic_cylinder_finely<T: Real>(
     shape: &EllipticCylinder<T>,
@@ -94,6 +176,8 @@ fn elliptic_in_double<T: Real>(
 soft_finger!(
     EllipticCylinder,
     |shape, wrench, _, visit| told(on_elliptic_cylinder_finely(shape, wrench), visit),
+    sole | shape,
+    push | steeply_on_elliptic_cylinder(shape, push),
     double | shape,
     wrench | elliptic_in_double(shape, wrench),
     patch | shape,

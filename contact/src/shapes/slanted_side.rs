@@ -7,6 +7,16 @@ use nalgebra::Vector3;
 use crate::SoftContact;
 use crate::model::flat;
 
+/// Whether rounding is multiplied by no more than 15, by `(1 + t/|f|)²/(p/|f|)²` for a force that presses with `p` and a spin
+/// torque of which the turn of the normal makes a force `t`.
+///
+/// With `(1 + x)² ≤ 4/3 (1 + 3x²)` no root is needed.
+#[inline(always)]
+pub(super) fn is_steep<T: Real>(push: &ForceLine<T>, pressing: T, twist: T) -> bool {
+    let squared = push.squared() + twist * twist * T::literal(3.0);
+    pressing * pressing >= flat::<T>() * flat::<T>() * squared
+}
+
 /// A straight side around an axis, unbounded, as far as it goes before the axis.
 #[derive(Clone, Copy)]
 pub(super) struct SlantedSide<T: Real> {
@@ -59,9 +69,7 @@ impl<T: Real> SlantedSide<T> {
         let around = radius - along * sine;
         let height = along * cosine;
         // What rounding does is multiplied by no more than `(1 + |τ κ|/|f|)²/(f·n/|f|)²`, `κ` being the curvature.
-        let twist = spin_torque * (cosine / around);
-        let steep = flat::<T>() * flat::<T>();
-        let is_steady = pressing * pressing >= steep * (push.squared() + twist * twist);
+        let is_steady = is_steep(push, pressing, spin_torque * (cosine / around));
         let point = origin + (outward * around + axis * height);
         // Nor so near to the tip that the way there from the origin takes digits. False for a NaN, too.
         let is_near = (around > T::zero()) & (around * T::literal(4.0) >= radius);

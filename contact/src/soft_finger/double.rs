@@ -1,5 +1,6 @@
 //! The second opinion of double precision.
 
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{length, wide};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -15,7 +16,7 @@ pub(crate) fn finely<T: Real>(
     wrench: &Wrench<T>,
     again: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    if T::EPSILON.to_f64() <= f64::EPSILON || found.as_ref().is_ok_and(is_steady) {
+    if !is_asked_again::<T>() || found.as_ref().is_ok_and(is_steady) {
         return found;
     }
     match again(&widened(wrench)) {

@@ -1,6 +1,7 @@
 //! A soft contact to the last digit.
 
 use fingertip_surfaces::LocalSurface;
+use fingertip_surfaces::numeric::mixed_precision::is_refined_in_double;
 use fingertip_surfaces::numeric::twofold::{Twofold, Wide};
 use fingertip_surfaces::numeric::vectors::{larger, wide};
 use fingertip_wrench::{Real, Wrench};
@@ -32,7 +33,7 @@ type PartAt<'a, T> = &'a dyn Fn(&Vector3<T>) -> Option<Patch>;
 /// twice the digits, from what the surface is to the last one ([`SoftFingerSurface::patch`]), and steps of
 /// Newton's method take them away from a contact that is carried with twice the digits too: iterative
 /// refinement. What is left is the rounding of the result. On a surface that does not tell what it is,
-/// only what a flat angle does is undone ([`mended`]).
+/// only what a flat angle does is undone ([`mended`]); so in single precision without the feature `mixed-precision`.
 ///
 /// A contact at an edge or a tip keeps its place, since its normal is not the surface's there. One that
 /// would move further than rounding explains is left as it is. The derivative of a dual number is that of
@@ -44,6 +45,9 @@ pub(crate) fn refined<T: Real, S: SoftFingerSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
+    if !is_refined_in_double::<T>() {
+        return mended(wrench, surface, contact);
+    }
     match surface.patch(&contact.point) {
         Some(Patch { surface: LocalSurface::Facets, .. }) => *contact,
         Some(patch) => refined_on(wrench, &patch, &|point| surface.patch(point), contact),
@@ -116,6 +120,9 @@ pub(crate) fn settled<T: Real, S: SoftFingerSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> Option<SoftContact<T>> {
+    if !is_refined_in_double::<T>() {
+        return None;
+    }
     settled_on(wrench, &|point| surface.patch(point), contact)
 }
 

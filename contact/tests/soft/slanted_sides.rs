@@ -1,7 +1,9 @@
-//! The closed form of straight sides: of cones, frusta and closed cylinders.
+//! The closed form of straight sides: of cones, frusta and cylinders with flat ends, elliptic ones too.
 
 use fingertip_contact::{ContactModel, SoftFinger, SoftFingerSurface};
-use fingertip_surfaces::{CappedCylinder, Cone, ForceLine, Frustum, SmoothSurface};
+use fingertip_surfaces::{
+    CappedCylinder, Cone, CylinderEnds, EllipticCylinder, ForceLine, Frustum, SmoothSurface,
+};
 use fingertip_test_support::Worst;
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -124,6 +126,34 @@ fn frusta_take_the_short_way() {
     frusta::<f32>(2e-6);
 }
 
+fn elliptic_cylinders<T: Real>(tolerance: f64) {
+    let mut random = Random::new(41);
+    for [a, b] in [[0.6, 0.5], [0.5, 0.5], [0.3, 0.8], [0.9, 0.09]] {
+        for half in [None, Some(0.4)] {
+            let mut told = Told { tried: 0, answered: 0, worst: Worst::new() };
+            let ends = half.map_or(CylinderEnds::Unbounded, |half| CylinderEnds::Capped(T::literal(half)));
+            let narrow = EllipticCylinder::new([a, b].map(T::literal), ends).unwrap();
+            let same = EllipticCylinder::new(
+                narrow.semi_axes().map(Real::to_f64),
+                half.map_or(CylinderEnds::Unbounded, |half| CylinderEnds::Capped(T::literal(half).to_f64())),
+            );
+            for _ in 0..10 {
+                short_way(&narrow, &same.unwrap(), 1.0, &mut random, &mut told);
+            }
+            let Told { tried, answered, worst } = told;
+            println!("semi-axes {a} and {b}, {half:?}: {answered} of {tried}, {:.1e}", worst.get());
+            assert!(answered >= tried * 6 / 10, "{a} {b} {half:?}: {answered} of {tried}");
+            assert!(worst.get() < tolerance, "{a} {b} {half:?}: {:e}", worst.get());
+        }
+    }
+}
+
+#[test]
+fn elliptic_cylinders_take_the_short_way() {
+    elliptic_cylinders::<f64>(2e-14);
+    elliptic_cylinders::<f32>(2e-6);
+}
+
 /// What the short way says is what the long way says, beyond the ranges where the exact contact is known, too: a
 /// torque arm closes the short way, and this one is too long to have a say.
 #[test]
@@ -137,6 +167,8 @@ fn the_short_way_and_the_long_way_agree() {
         let solid = Frustum::new(axis * (-0.5 * unit), axis, 0.5 * unit, 0.2 * unit, unit).unwrap();
         let cone = Cone::new(axis * (-0.6 * unit), axis, random.uniform(0.1, 1.4)).unwrap();
         let capped = CappedCylinder::new(axis * (0.1 * unit), axis, 0.4 * unit, 0.5 * unit).unwrap();
+        let ends = [CylinderEnds::Unbounded, CylinderEnds::Capped(0.5 * unit)][round % 2];
+        let elliptic = EllipticCylinder::new([0.4 * unit, random.uniform(0.2, 0.8) * unit], ends).unwrap();
         macro_rules! agree {
             ($surface:expr) => {{
                 let spin = random.log_uniform(1e-6, 1.0);
@@ -163,6 +195,7 @@ fn the_short_way_and_the_long_way_agree() {
         agree!(&solid);
         agree!(&cone);
         agree!(&capped);
+        agree!(&elliptic);
     }
     println!("{told:?}");
     assert!(told[0] > told[1] / 3, "{told:?}");
@@ -196,6 +229,8 @@ fn extremes() {
         let [zero, one] = [T::zero(), T::one()];
         let cone = Cone::new(Vector3::zeros(), Vector3::z(), T::literal(0.6)).unwrap();
         let solid = Frustum::new(Vector3::zeros(), Vector3::z(), one, T::literal(0.5), one).unwrap();
+        let elliptic = EllipticCylinder::new([T::literal(0.3), one], CylinderEnds::Capped(one)).unwrap();
+        let endless = EllipticCylinder::new([T::literal(0.3), one], CylinderEnds::Unbounded).unwrap();
         let extremes = [
             zero,
             one,
@@ -213,10 +248,13 @@ fn extremes() {
                         let force = Vector3::new(across, zero, force);
                         let wrench = Wrench::on_fingertip(force, Vector3::new(zero, torque, along));
                         let Some(push) = ForceLine::new(&wrench, zero) else { continue };
-                        for contact in [cone.sole_soft_contact(&push), solid.sole_soft_contact(&push)]
-                            .into_iter()
-                            .flatten()
-                        {
+                        let told = [
+                            cone.sole_soft_contact(&push),
+                            solid.sole_soft_contact(&push),
+                            elliptic.sole_soft_contact(&push),
+                            endless.sole_soft_contact(&push),
+                        ];
+                        for contact in told.into_iter().flatten() {
                             let sum = contact.point.sum() + contact.normal.sum() + contact.spin_torque;
                             assert!(sum.is_number(), "{wrench:?} {contact:?}");
                             assert!(contact.normal.dot(&force) < zero, "{wrench:?} {contact:?}");

@@ -211,7 +211,7 @@ units_test! {
     capsule, 300, 16;
     torus, 50, 0;
     superquadric, 50, 0;
-    rounded_box, 150, 0;
+    rounded_box, 150, 16;
     paraboloid, 150, 0;
     capped_cylinder, 300, 16;
     frustum, 300, 16;

@@ -172,9 +172,12 @@ fn on_the_heap(items: &str) -> bool {
     ON_THE_HEAP.iter().any(|shape| items.contains(shape))
 }
 
+/// The feature that refines single precision in double.
+pub(super) const MIXED_PRECISION: &str = "mixed-precision";
+
 /// Features of `fingertip` that the items need.
 fn features(items: &str) -> Vec<&'static str> {
-    let mut features = vec!["libm"];
+    let mut features = vec!["libm", MIXED_PRECISION];
     features.extend(on_the_heap(items).then_some("alloc"));
     features.extend(items.contains("friction::").then_some("friction"));
     features.extend(items.contains("contact::Compliant").then_some("skin"));

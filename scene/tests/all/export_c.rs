@@ -28,7 +28,13 @@ fn the_header_says_what_the_functions_take() {
         assert!(header.contains(part), "{part}: {header}");
     }
     assert!(!header.contains("grip_force") && !header.contains("malloc") && !header.contains("REAL"));
-    assert!(plain.manifest("path = \"..\"").contains("features = [\"libm\"]"));
+    assert!(
+        plain.manifest("path = \"..\"").contains("features = [\"libm\", \"mixed-precision\"]")
+            && plain.is_exact()
+    );
+    let smallest = plain.without_mixed_precision();
+    assert!(smallest.manifest("path = \"..\"").contains("features = [\"libm\"]") && !smallest.is_exact());
+    assert!(library("", Scalar::F64).unwrap().without_mixed_precision().is_exact());
     let rich = library(&format!("{FRICTION}{GRIP}{NOISE}"), Scalar::F64).unwrap();
     let header = rich.header(8);
     assert!(

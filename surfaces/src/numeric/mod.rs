@@ -4,6 +4,7 @@ pub(crate) mod closest;
 pub(crate) mod ellipse;
 pub mod fine_pose;
 pub(crate) mod interval;
+pub mod mixed_precision;
 pub(crate) mod powers;
 pub mod quadratic;
 pub(crate) mod range;

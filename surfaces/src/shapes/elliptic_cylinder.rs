@@ -91,6 +91,13 @@ impl<T: Real> EllipticCylinder<T> {
         self.semi_axes
     }
 
+    /// Their reciprocals \[1/m\].
+    #[inline]
+    #[doc(hidden)]
+    pub const fn curvatures(&self) -> [T; 2] {
+        self.curvatures
+    }
+
     /// How it ends.
     #[inline]
     #[must_use]

@@ -5,6 +5,7 @@ mod ring;
 mod spheres;
 mod zeros;
 
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{larger, largest, unit_or};
 use fingertip_surfaces::{ActiveSurface, LocalSurface, SmoothSurface, Torus};
 use fingertip_wrench::{Real, Wrench};
@@ -143,7 +144,7 @@ fn on_torus<T: Real>(
     wrench: &Wrench<T>,
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
-    if T::EPSILON.to_f64() <= f64::EPSILON {
+    if !is_asked_again::<T>() {
         return search(torus, wrench, T::EPSILON, &mut visit);
     }
     if is_pure_force_of(&wrench.force(), &wrench.torque(), T::EPSILON) {

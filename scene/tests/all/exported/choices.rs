@@ -12,7 +12,7 @@ pub mod filter_low_pass {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -108,7 +108,7 @@ pub mod filter_notch {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -202,7 +202,7 @@ pub mod surface_plane {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -259,7 +259,7 @@ pub mod surface_disk {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -317,7 +317,7 @@ pub mod surface_rectangle {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -378,7 +378,7 @@ pub mod surface_sphere {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -435,7 +435,7 @@ pub mod surface_ellipsoid {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -492,7 +492,7 @@ pub mod surface_cylinder {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -549,7 +549,7 @@ pub mod surface_capped_cylinder {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -607,7 +607,7 @@ pub mod surface_elliptic_cylinder {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -664,7 +664,7 @@ pub mod surface_capsule {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -721,7 +721,7 @@ pub mod surface_cone {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -783,7 +783,7 @@ pub mod surface_frustum {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -840,7 +840,7 @@ pub mod surface_torus {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -898,7 +898,7 @@ pub mod surface_superquadric {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -956,7 +956,7 @@ pub mod surface_rounded_box {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1014,7 +1014,7 @@ pub mod surface_paraboloid {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1072,7 +1072,7 @@ pub mod surface_revolution {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1132,7 +1132,7 @@ pub mod surface_heightfield {
     //
     // It needs a heap, but no standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "alloc"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "alloc"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1200,7 +1200,7 @@ pub mod surface_mesh {
     //
     // It needs a heap, but no standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "alloc"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "alloc"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1302,7 +1302,7 @@ pub mod surface_formula {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1386,7 +1386,7 @@ pub mod surface_posed {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1479,7 +1479,7 @@ pub mod surface_trimmed {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1540,7 +1540,7 @@ pub mod surface_compound {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1602,7 +1602,7 @@ pub mod contact_point {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1692,7 +1692,7 @@ pub mod contact_soft_finger {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1778,7 +1778,7 @@ pub mod contact_auto {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1874,7 +1874,7 @@ pub mod contact_skin_linear {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "skin"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -1937,7 +1937,7 @@ pub mod contact_skin_power {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "skin"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2000,7 +2000,7 @@ pub mod contact_skin_hertz {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "skin"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2066,7 +2066,7 @@ pub mod contact_skin_local_hertz {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "skin"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2133,7 +2133,7 @@ pub mod contact_skin_table {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "skin"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "skin"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2194,7 +2194,7 @@ pub mod friction_coulomb {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2283,7 +2283,7 @@ pub mod friction_anisotropic {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2372,7 +2372,7 @@ pub mod friction_soft_finger {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2461,7 +2461,7 @@ pub mod friction_power {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2551,7 +2551,7 @@ pub mod friction_load_dependent {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2640,7 +2640,7 @@ pub mod friction_uncertain {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2740,7 +2740,7 @@ pub mod slip_drop {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2833,7 +2833,7 @@ pub mod slip_threshold {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -2931,7 +2931,7 @@ pub mod slip_likelihood_ratio {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -3028,7 +3028,7 @@ pub mod slip_stick_slip {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //
@@ -3125,7 +3125,7 @@ pub mod slip_adaptive_drop {
     //
     // It needs neither heap nor standard library, and in Cargo.toml:
     //
-    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+    //   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
     //
     // With a standard library, "std" in the place of "libm".
     //

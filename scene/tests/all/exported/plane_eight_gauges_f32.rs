@@ -11,7 +11,7 @@
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
-//   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction"] }
+//   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction"] }
 //
 // With a standard library, "std" in the place of "libm".
 //

@@ -16,7 +16,7 @@
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
-//   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "friction", "skin"] }
+//   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "friction", "skin"] }
 //
 // With a standard library, "std" in the place of "libm".
 //

@@ -10,7 +10,7 @@
 //
 // It needs neither heap nor standard library, and in Cargo.toml:
 //
-//   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "track"] }
+//   fingertip = { version = "0.1.0", default-features = false, features = ["libm", "mixed-precision", "track"] }
 //
 // With a standard library, "std" in the place of "libm".
 //
