@@ -47,7 +47,7 @@ static int weigh(ft_hand *hand, const ft_finger fingers[FINGERS], const ft_wrenc
     for (int i = 0; i < 6; ++i) felt.covariance[i][i] = i < 3 ? 4e-6 : 4e-10;
     const double gravity[3] = {0.0, 0.0, -9.80665};
     ft_object object;
-    if (ft_hand_weigh(hand, &felt, &gravity) != FT_OK || ft_hand_object(hand, &object) != FT_OK) return -1;
+    if (ft_hand_weigh(hand, &felt, gravity) != FT_OK || ft_hand_object(hand, &object) != FT_OK) return -1;
     const ft_wrench more = {{0.0, 0.0, -1.0}, {0.0, 0.0, 0.0}};
     for (int i = 0; i < FINGERS; ++i) {
         const ft_pose pose = pose_of(i);

@@ -307,7 +307,7 @@ public:
     }
     /// Takes in what the fingers feel together while nothing else touches the object.
     ft_status weigh(const ft_uncertain_wrench& load, const double (&gravity)[3]) noexcept {
-        return ft_hand_weigh(raw(), &load, &gravity);
+        return ft_hand_weigh(raw(), &load, gravity);
     }
     /// What was learnt of the object.
     Result<ft_object> object() noexcept {
@@ -319,7 +319,7 @@ public:
     Result<ft_other> other(const ft_uncertain_wrench& load, const double (&gravity)[3],
                            double false_alarm = 1e-3) noexcept {
         Result<ft_other> result{FT_OK, {}};
-        result.status = ft_hand_other(raw(), &load, &gravity, false_alarm, &result.value);
+        result.status = ft_hand_other(raw(), &load, gravity, false_alarm, &result.value);
         return result;
     }
     ft_status forget() noexcept { return ft_hand_forget(raw()); }

@@ -4,7 +4,7 @@ use fingertip::hand::{OtherContact, UncertainWrench};
 use fingertip::wrench::Wrench;
 use nalgebra::{Matrix6, Vector3};
 
-use crate::border::{on, place, read};
+use crate::border::{on, place, read, read_many};
 use crate::fault::{Fault, ft_status};
 use crate::hand::ft_hand;
 use crate::load::ft_wrench;
@@ -69,17 +69,18 @@ pub struct ft_other {
 }
 
 /// Takes in what the fingers feel together while nothing else touches the object, as ft_object_wrench gives it, with
-/// gravity in the frame of the hand in m/s², less the acceleration of the object where that is known. Samples count as
+/// the three numbers of gravity in the frame of the hand in m/s², less the acceleration of the object where that is known. Samples count as
 /// independent: give them as far apart as their errors last. FT_BAD_NUMBER, and nothing learnt, unless the numbers are finite
 /// and the covariance is positive definite. Allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_hand_weigh(
     hand: *mut ft_hand,
     load: *const ft_uncertain_wrench,
-    gravity: *const [f64; 3],
+    gravity: *const f64,
 ) -> ft_status {
     on(hand, |hand| {
-        let (load, gravity) = (read(load, "load")?, Vector3::from(read(gravity, "gravity")?));
+        let (load, gravity) =
+            (read(load, "load")?, Vector3::from(read_many::<f64, 3>(gravity, 3, "gravity", 0.0)?));
         match hand.weight.observe(&load.given(), &gravity) {
             true => Ok(()),
             false => Err(Fault::Number {
@@ -121,13 +122,14 @@ pub unsafe extern "C" fn ft_hand_object(hand: *mut ft_hand, object: *mut ft_obje
 pub unsafe extern "C" fn ft_hand_other(
     hand: *mut ft_hand,
     load: *const ft_uncertain_wrench,
-    gravity: *const [f64; 3],
+    gravity: *const f64,
     false_alarm: f64,
     other: *mut ft_other,
 ) -> ft_status {
     on(hand, |hand| {
         let place = place(other, "other")?;
-        let (load, gravity) = (read(load, "load")?, Vector3::from(read(gravity, "gravity")?));
+        let (load, gravity) =
+            (read(load, "load")?, Vector3::from(read_many::<f64, 3>(gravity, 3, "gravity", 0.0)?));
         if !(false_alarm > 0.0 && false_alarm < 1.0) {
             return Err(Fault::Number { name: "false_alarm", requirement: "between 0 and 1" });
         }

@@ -187,10 +187,10 @@ fn commands(touch: &ft_touch) {
         let mut felt = ft_uncertain_wrench { wrench: unsafe { *load }, covariance: [[0.0; 6]; 6] };
         (0..6).for_each(|i| felt.covariance[i][i] = 1e-6);
         let gravity = [0.0, 0.0, -9.81];
-        assert_eq!(unsafe { ft_hand_weigh(hand, &felt, &gravity) }, ft_status::FT_OK);
+        assert_eq!(unsafe { ft_hand_weigh(hand, &felt, gravity.as_ptr()) }, ft_status::FT_OK);
         let (mut object, mut other) = (MaybeUninit::uninit(), MaybeUninit::uninit());
         assert_eq!(unsafe { ft_hand_object(hand, object.as_mut_ptr()) }, ft_status::FT_OK);
-        let status = unsafe { ft_hand_other(hand, &felt, &gravity, 1e-3, other.as_mut_ptr()) };
+        let status = unsafe { ft_hand_other(hand, &felt, gravity.as_ptr(), 1e-3, other.as_mut_ptr()) };
         assert_eq!(status, ft_status::FT_OK);
         let mut quality = MaybeUninit::uninit();
         let status = unsafe { ft_grasp_quality(fingers, 2, 0.02, 0, quality.as_mut_ptr(), ptr::null_mut()) };

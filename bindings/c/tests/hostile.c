@@ -302,9 +302,9 @@ static void hand_calls(void) {
     numbers(torques, FT_MAX_JOINTS + 1, 1.0);
     numbers(gravity, 3, 9.81);
     switch (below(12)) {
-        case 6: memset(output, CANARY, sizeof output), status = ft_hand_weigh(hand, once_in(30) ? NULL : &felt, once_in(30) ? NULL : &gravity), bytes = 0; break;
+        case 6: memset(output, CANARY, sizeof output), status = ft_hand_weigh(hand, once_in(30) ? NULL : &felt, once_in(30) ? NULL : gravity), bytes = 0; break;
         case 7: status = ft_hand_object(hand, to), bytes = sizeof(ft_object); break;
-        case 8: status = ft_hand_other(hand, once_in(30) ? NULL : &felt, once_in(30) ? NULL : &gravity, number(0.5), to), bytes = sizeof(ft_other); break;
+        case 8: status = ft_hand_other(hand, once_in(30) ? NULL : &felt, once_in(30) ? NULL : gravity, number(0.5), to), bytes = sizeof(ft_other); break;
         case 9: status = ft_hand_reach(hand, in, count, loaded, once_in(30) ? NULL : &felt.wrench, to), bytes = sizeof(ft_reach); break;
         case 10:
             memset(output, CANARY, sizeof output);

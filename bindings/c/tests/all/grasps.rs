@@ -204,7 +204,7 @@ fn an_object_is_weighed_and_what_touches_it_is_found() {
     let hand = Held::new(FREE);
     let object = || -> ft_object { written(|to| unsafe { ft_hand_object(hand.0, to) }).unwrap() };
     let other = |load: &ft_uncertain_wrench, gravity: &[f64; 3], alarm: f64| -> Result<ft_other, ft_status> {
-        written(|to| unsafe { ft_hand_other(hand.0, load, gravity, alarm, to) })
+        written(|to| unsafe { ft_hand_other(hand.0, load, gravity.as_ptr(), alarm, to) })
     };
     assert_eq!((object().has_mass, object().has_centre), (0, 0));
     let (mass, centre) = (0.2, Vector3::new(0.01, 0.0, 0.02));
@@ -214,7 +214,7 @@ fn an_object_is_weighed_and_what_touches_it_is_found() {
     for (count, gravity) in [down, aside].into_iter().enumerate() {
         assert_eq!(other(&felt(weight(down)), &down.into(), 1e-3).unwrap().is_known, 0);
         let load = felt(weight(gravity));
-        assert_eq!(unsafe { ft_hand_weigh(hand.0, &load, &gravity.into()) }, ft_status::FT_OK);
+        assert_eq!(unsafe { ft_hand_weigh(hand.0, &load, gravity.as_slice().as_ptr()) }, ft_status::FT_OK);
         same.observe(&UncertainWrench { wrench: weight(gravity), covariance: noise() }, &gravity);
         let found = object();
         assert_eq!((found.has_mass, found.has_centre), (1, u32::from(count == 1)));
