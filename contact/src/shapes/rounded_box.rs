@@ -9,7 +9,7 @@ use super::cylinder::{on_round_side, steeply_on_round_side};
 use super::plane::on_plane;
 use super::sphere::{on_sphere, steeply_on_sphere};
 use crate::model::flat;
-use crate::soft_finger::closed_form::{is_pure_force, is_steady, soft_finger, told};
+use crate::soft_finger::closed_form::{is_pure_force_of, is_steady, soft_finger, told};
 use crate::soft_finger::double::{finely, spins_little};
 use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
 
@@ -132,16 +132,21 @@ fn on_part<T: Real>(
     on_sphere(&Sphere::new(centre, rounding).ok()?, wrench).ok()
 }
 
-/// By Newton's method, and where that does not settle, by all parts: but for a pure force, which either hits or misses.
+/// By Newton's method, and where that does not settle, by all parts: but for a pure force, by numbers that are rounded to so
+/// much of them, which either hits or misses.
 fn search<T: Real>(
     shape: &RoundedBox<T>,
     wrench: &Wrench<T>,
     last: Option<&Vector3<T>>,
+    epsilon: T,
 ) -> Result<SoftContact<T>, Search<T>> {
     let mut found = None;
     let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
-    let is_lost = search == Search::Incomplete && !is_pure_force(&wrench.force(), &wrench.torque());
-    found.or_else(|| if is_lost { by_parts(shape, wrench) } else { None }).ok_or(search)
+    let is_lost = found.is_none() && search == Search::Incomplete;
+    if is_lost && !is_pure_force_of(&wrench.force(), &wrench.torque(), epsilon) {
+        found = by_parts(shape, wrench);
+    }
+    found.ok_or(search)
 }
 
 /// In double precision if the type is narrower and the spin torque rules: then rounding decides between faces, edges and
@@ -151,7 +156,8 @@ fn on_rounded_box<T: Real>(
     wrench: &Wrench<T>,
     last: Option<&Vector3<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    finely(search(shape, wrench, last), spins_little(wrench, shape.rounding()), wrench, |wrench| {
+    let found = search(shape, wrench, last, T::EPSILON);
+    finely(found, spins_little(wrench, shape.rounding()), wrench, |wrench| {
         rounded_box_in_double(shape, wrench, last.map(wide).as_ref())
     })
 }
@@ -161,7 +167,7 @@ fn rounded_box_in_double<T: Real>(
     wrench: &Wrench<f64>,
     last: Option<&Vector3<f64>>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    Some(search(&shape.in_double()?, wrench, last))
+    Some(search(&shape.in_double()?, wrench, last, T::EPSILON.to_f64()))
 }
 
 soft_finger!(
