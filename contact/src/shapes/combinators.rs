@@ -79,20 +79,23 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         if any { Search::Incomplete } else { search }
     }
 
-    /// In a narrower type only of a force that presses a little more steeply than the shape asks for: moving the wrench has
-    /// rounded it, too.
+    /// Only where the spin torque is not more than the force has at a lever of the size of the place: turning the wrench mixes
+    /// what rounding does to one torque into the others. In a narrower type only of a force that presses a little more
+    /// steeply than the shape asks for, too.
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         let pose = self.sensor_from_shape();
-        let found = self.inner().sole_soft_contact(&push.seen_from(pose)).map(|contact| SoftContact {
-            point: pose.transform_point(&contact.point),
-            normal: pose.rotate(&contact.normal),
-            ..contact
-        });
-        found.filter(|contact| {
-            let pressing = push.force().dot(&contact.normal);
-            !is_asked_again::<T>() || pressing * pressing >= T::literal(STEEPER) * push.squared()
-        })
+        let found = self.inner().sole_soft_contact(&push.seen_from(pose))?;
+        let lever = found.point.norm_squared() + pose.origin().norm_squared();
+        if !(found.spin_torque * found.spin_torque <= push.squared() * lever) {
+            return None;
+        }
+        let normal = pose.rotate(&found.normal);
+        let pressing = push.force().dot(&normal);
+        if is_asked_again::<T>() && !(pressing * pressing >= T::literal(STEEPER) * push.squared()) {
+            return None;
+        }
+        Some(SoftContact { point: pose.transform_point(&found.point), normal, ..found })
     }
 
     /// Of the shape under the wrench that has the contact there (`docs/theory/contact.md#shapes-in-a-pose`).

@@ -1,14 +1,15 @@
 //! The rounded box.
 
-use fingertip_surfaces::numeric::vectors::wide;
+use fingertip_surfaces::numeric::vectors::{larger, largest, wide};
 use fingertip_surfaces::{ForceLine, LocalSurface, RoundedBox, SmoothSurface, Sphere};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use super::cylinder::steeply_on_round_side;
-use super::sphere::steeply_on_sphere;
+use super::cylinder::{on_round_side, steeply_on_round_side};
+use super::plane::on_plane;
+use super::sphere::{on_sphere, steeply_on_sphere};
 use crate::model::flat;
-use crate::soft_finger::closed_form::{is_steady, soft_finger, told};
+use crate::soft_finger::closed_form::{is_pure_force_of, is_steady, soft_finger, told};
 use crate::soft_finger::double::{finely, spins_little};
 use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
 
@@ -76,16 +77,87 @@ fn on_face<T: Real>(origin: &Vector3<T>, normal: &Vector3<T>, push: &ForceLine<T
     Some(SoftContact { point, normal: *normal, spin_torque, active: true })
 }
 
-/// By Newton's method; in double precision if the type is narrower and the spin torque rules: then rounding
-/// decides between faces, edges and corners.
+/// The contact by the closed forms of all faces, edges and corners: that of which the place is on its own part, or by rounding
+/// beside it.
+///
+/// For what Newton's method does not settle: it goes to and fro where a contact is next to a seam, at which the curvature
+/// jumps.
+#[cold]
+#[inline(never)]
+fn by_parts<T: Real>(shape: &RoundedBox<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let (half, rounding, zero) = (shape.half_extents(), shape.rounding(), T::zero());
+    let core = half.map(|half| half - rounding);
+    let force = wrench.force();
+    let least = largest(&force) * T::EPSILON * T::literal(4.0);
+    let mut best: Option<(SoftContact<T>, T)> = None;
+    let signs = [zero, T::one(), -T::one()];
+    for side in
+        signs.iter().flat_map(|x| signs.iter().flat_map(move |y| signs.map(|z| Vector3::new(*x, *y, z))))
+    {
+        let Some(found) = on_part(&side, &half, rounding, wrench) else { continue };
+        let beside = found.point.zip_zip_map(&core, &side, |x, core, side| {
+            if side.is_zero() { larger(x.abs() - core, zero) } else { zero }
+        });
+        let behind = found.normal.zip_map(&side, |normal, side| larger(-(normal * side), zero) * rounding);
+        let off = largest(&beside) + largest(&behind);
+        let is_best = best.is_none_or(|(_, least)| off < least);
+        if is_best && -force.dot(&found.normal) > least {
+            best = Some((found, off));
+        }
+    }
+    best.filter(|(_, off)| *off <= T::EPSILON.root() * rounding).map(|(found, _)| found)
+}
+
+/// On the whole plane, cylinder or ball of the part on this side of the core (−1, 0 or 1 along each axis).
+fn on_part<T: Real>(
+    side: &Vector3<T>,
+    half: &Vector3<T>,
+    rounding: T,
+    wrench: &Wrench<T>,
+) -> Option<SoftContact<T>> {
+    let (one, parts) = (T::one(), side.norm_squared());
+    if parts.is_zero() {
+        return None;
+    }
+    if parts <= one {
+        let origin = half.component_mul(side);
+        let found = on_plane(side, &wrench.force(), &wrench.torque_about(&origin))?;
+        return Some(SoftContact { point: found.point + origin, ..found });
+    }
+    let centre = half.zip_map(side, |half, side| (half - rounding) * side);
+    if parts <= one + one {
+        let along = side.map(|side| if side.is_zero() { one } else { T::zero() });
+        return on_round_side(&centre, &along, rounding, &wrench.force(), &wrench.torque_about(&centre));
+    }
+    on_sphere(&Sphere::new(centre, rounding).ok()?, wrench).ok()
+}
+
+/// By Newton's method, and where that does not settle, by all parts: but for a pure force, by numbers that are rounded to so
+/// much of them, which either hits or misses.
+fn search<T: Real>(
+    shape: &RoundedBox<T>,
+    wrench: &Wrench<T>,
+    last: Option<&Vector3<T>>,
+    epsilon: T,
+) -> Result<SoftContact<T>, Search<T>> {
+    let mut found = None;
+    let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
+    let is_lost = found.is_none() && search == Search::Incomplete;
+    if is_lost && !is_pure_force_of(&wrench.force(), &wrench.torque(), epsilon) {
+        found = by_parts(shape, wrench);
+    }
+    found.ok_or(search)
+}
+
+/// In double precision if the type is narrower and the spin torque rules: then rounding decides between faces, edges and
+/// corners.
 fn on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
     wrench: &Wrench<T>,
     last: Option<&Vector3<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    let mut found = None;
-    let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
-    finely(found.ok_or(search), spins_little(wrench, shape.rounding()), wrench, |wrench| {
+    let found = search(shape, wrench, last, T::EPSILON);
+    finely(found, spins_little(wrench, shape.rounding()), wrench, |wrench| {
         rounded_box_in_double(shape, wrench, last.map(wide).as_ref())
     })
 }
@@ -95,10 +167,7 @@ fn rounded_box_in_double<T: Real>(
     wrench: &Wrench<f64>,
     last: Option<&Vector3<f64>>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    let double = shape.in_double()?;
-    let mut found = None;
-    let search = newton_soft_contacts(&double, wrench, last, |contact| found = Some(contact));
-    Some(found.ok_or(search))
+    Some(search(&shape.in_double()?, wrench, last, T::EPSILON.to_f64()))
 }
 
 soft_finger!(

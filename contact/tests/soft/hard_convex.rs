@@ -1,7 +1,7 @@
 //! Convex bodies on which Newton's method has a hard time: flat ones, needles, and boxes with sharp edges.
 
-use fingertip_contact::{ContactModel, NoContact, Resolution, SoftFinger, SoftFingerSurface};
-use fingertip_surfaces::{ActiveSurface, Ellipsoid, Superquadric};
+use fingertip_contact::{ContactModel, NoContact, Resolution, SoftContact, SoftFinger, SoftFingerSurface};
+use fingertip_surfaces::{ActiveSurface, Ellipsoid, RoundedBox, Superquadric};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -57,6 +57,27 @@ fn no_contact_is_lost_in_double_precision() {
         let body = Superquadric::new(Vector3::new(0.008, 0.010, 0.013), exponents).unwrap();
         assert_eq!(lost::<f64, _>(&body, 60, |c| body.normal(c)), 0, "{exponents:?}");
     }
+    for rounding in [1e-4, 1e-3, 5e-3] {
+        let body = RoundedBox::new(Vector3::new(0.008, 0.010, 0.013), rounding).unwrap();
+        assert_eq!(lost::<f64, _>(&body, 200, |c| body.normal(c)), 0, "{rounding:?}");
+    }
+}
+
+/// A contact next to a seam, where the curvature jumps and Newton's method goes to and fro: none was found.
+#[test]
+fn a_contact_next_to_a_seam_is_found() {
+    let half = Vector3::new(3.9436754e-6, 6.7888222e-6, 3.5719047e-6);
+    let body = RoundedBox::new(half, 2.8495626e-6).unwrap();
+    let force = Vector3::new(-3_680_734_470.959_839_f64, -3_719_912_254.627_693, -5_474_700_485.281_036);
+    let torque = Vector3::new(43_112.481_132_392_81, 9_968_229.912_222_939, -7_012_491.391_812_064);
+    let mut found = Vec::new();
+    let search =
+        body.soft_contacts(&Wrench::on_fingertip(force, torque), None, |contact| found.push(contact));
+    let [contact] = found[..] else { panic!("{search:?} {found:?}") };
+    let SoftContact { point, normal, spin_torque, .. } = contact;
+    let rest = torque - point.cross(&force) - normal * spin_torque;
+    assert!(rest.norm() < 1e-12 * torque.norm() && force.dot(&normal) < 0.0, "{contact:?} {rest:?}");
+    assert!((normal - body.normal(&point)).norm() < 1e-12, "{contact:?}");
 }
 
 /// On the sharp edges of a box single precision has too few digits for all of them.

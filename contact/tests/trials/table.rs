@@ -154,6 +154,7 @@ table! {
     posed_capsule: Posed<f64, Capsule<f64>>, Posed<f32, Capsule<f32>>, points true;
     posed_capped_cylinder: Posed<f64, CappedCylinder<f64>>, Posed<f32, CappedCylinder<f32>>, points false;
     posed_elliptic_cylinder: Posed<f64, EllipticCylinder<f64>>, Posed<f32, EllipticCylinder<f32>>, points false;
+    posed_plane: Posed<f64, Plane<f64>>, Posed<f32, Plane<f32>>, points true;
     posed_sphere: Posed<f64, Sphere<f64>>, Posed<f32, Sphere<f32>>, points true;
     posed_ellipsoid: Posed<f64, Ellipsoid<f64>>, Posed<f32, Ellipsoid<f32>>, points true;
 }
