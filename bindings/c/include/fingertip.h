@@ -815,12 +815,12 @@ ft_status ft_hand_set_joints(struct ft_hand *hand,
 struct ft_reading ft_reading_of(const double *gauges, size_t count);
 
 // Takes in what the fingers feel together while nothing else touches the object, as ft_object_wrench gives it, with
-// gravity in the frame of the hand in m/s², less the acceleration of the object where that is known. Samples count as
+// the three numbers of gravity in the frame of the hand in m/s², less the acceleration of the object where that is known. Samples count as
 // independent: give them as far apart as their errors last. FT_BAD_NUMBER, and nothing learnt, unless the numbers are finite
 // and the covariance is positive definite. Allocates nothing.
 ft_status ft_hand_weigh(struct ft_hand *hand,
                         const struct ft_uncertain_wrench *load,
-                        const double (*gravity)[3]);
+                        const double *gravity);
 
 // What was learnt of the object. Allocates nothing.
 ft_status ft_hand_object(struct ft_hand *hand, struct ft_object *object);
@@ -829,7 +829,7 @@ ft_status ft_hand_object(struct ft_hand *hand, struct ft_object *object);
 // `false_alarm` is the probability with which `touches` may be said where nothing does, such as 0.001. Allocates nothing.
 ft_status ft_hand_other(struct ft_hand *hand,
                         const struct ft_uncertain_wrench *load,
-                        const double (*gravity)[3],
+                        const double *gravity,
                         double false_alarm,
                         struct ft_other *other);
 
