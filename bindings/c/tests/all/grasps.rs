@@ -246,7 +246,7 @@ fn an_object_is_weighed_and_what_touches_it_is_found() {
         assert_eq!(told.load.covariance[4][0], expected.load.covariance[(4, 0)]);
     }
     let bent = ft_uncertain_wrench { covariance: [[1.0; 6]; 6], ..felt(weight(down)) };
-    assert_eq!(unsafe { ft_hand_weigh(hand.0, &bent, &down.into()) }, ft_status::FT_BAD_NUMBER);
+    assert_eq!(unsafe { ft_hand_weigh(hand.0, &bent, down.as_slice().as_ptr()) }, ft_status::FT_BAD_NUMBER);
     assert!(hand.says().contains("positive definite"), "{}", hand.says());
     for alarm in [0.0, 1.0, f64::NAN] {
         assert_eq!(other(&felt(weight(down)), &down.into(), alarm).unwrap_err(), ft_status::FT_BAD_NUMBER);
