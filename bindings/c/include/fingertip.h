@@ -222,7 +222,8 @@ typedef uint32_t ft_reach_state;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A hand: what it commanded last, what slip has taught it, and what it has learnt of the object. Made by ft_hand_create, freed by ft_hand_free.
+// A hand: what it commanded last, what slip has taught it, and what it has learnt of the object. Made by ft_hand_create,
+// freed by ft_hand_free.
 typedef struct ft_hand ft_hand;
 
 // A fingertip: a scene that runs. Made by ft_tip_from_scene and its like, freed by ft_tip_free.
@@ -815,9 +816,9 @@ ft_status ft_hand_set_joints(struct ft_hand *hand,
 struct ft_reading ft_reading_of(const double *gauges, size_t count);
 
 // Takes in what the fingers feel together while nothing else touches the object, as ft_object_wrench gives it, with
-// the three numbers of gravity in the frame of the hand in m/s², less the acceleration of the object where that is known. Samples count as
-// independent: give them as far apart as their errors last. FT_BAD_NUMBER, and nothing learnt, unless the numbers are finite
-// and the covariance is positive definite. Allocates nothing.
+// the three numbers of gravity in the frame of the hand in m/s², less the acceleration of the object where that is known.
+// Samples count as independent: give them as far apart as their errors last. FT_BAD_NUMBER, and nothing learnt, unless the
+// numbers are finite and the covariance is positive definite. Allocates nothing.
 ft_status ft_hand_weigh(struct ft_hand *hand,
                         const struct ft_uncertain_wrench *load,
                         const double *gravity);

@@ -4,7 +4,7 @@ use fingertip::friction::{SlipMargin, SlipVerdict};
 use fingertip::hand::{
     BadContact, ContactFriction, FingerLimits, FingerSample, FingerState, Grasp, GraspContact, Hand, HandLoad,
 };
-use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
+use fingertip::wrench::{ContactForce, RigidTransform, Sensor};
 use nalgebra::Matrix3;
 
 use crate::border::{place, read, told};
@@ -159,8 +159,7 @@ pub(crate) fn load(load: *const ft_wrench) -> Result<HandLoad<f64>, Fault> {
     if load.is_null() {
         return Ok(HandLoad::FromFingers);
     }
-    let load = read(load, "load")?;
-    Ok(HandLoad::Known(Wrench::on_fingertip(load.force.into(), load.torque.into())))
+    Ok(HandLoad::Known(read(load, "load")?.wrench()))
 }
 
 /// A finger of a touch, moved into the frame of the hand; the friction coefficient and, for a soft finger, the torque

@@ -16,7 +16,8 @@ use crate::message::ft_error;
 /// Half-spaces that limit a finger: of its least and its greatest normal force, and two of each joint.
 pub(crate) const ROWS: usize = 2 + 2 * FT_MAX_JOINTS;
 
-/// A hand: what it commanded last, what slip has taught it, and what it has learnt of the object. Made by ft_hand_create, freed by ft_hand_free.
+/// A hand: what it commanded last, what slip has taught it, and what it has learnt of the object. Made by ft_hand_create,
+/// freed by ft_hand_free.
 #[derive(Debug)]
 pub struct ft_hand {
     pub(crate) controller: HandController<f64, FT_MAX_FINGERS, ROWS, AnyBelief<f64>>,

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, Vector6};
 
-use crate::border::{on, read, read_many};
+use crate::border::{on, read_many};
 use crate::fault::{Fault, ft_status};
 use crate::hand::ft_hand;
 
@@ -32,11 +32,7 @@ pub unsafe extern "C" fn ft_hand_set_joints(
         let (mut columns, mut torques) = ([[0.0; 6]; FT_MAX_JOINTS], [0.0; FT_MAX_JOINTS]);
         if count > 0 {
             torques = read_many(greatest, count, "greatest", 0.0)?;
-            for (joint, column) in columns.iter_mut().enumerate().take(count) {
-                // Within the six numbers of each joint that the caller's memory has; NULL stays NULL and is refused.
-                let first = if jacobian.is_null() { jacobian } else { jacobian.wrapping_add(6 * joint) };
-                *column = read(first.cast::<[f64; 6]>(), "jacobian")?;
-            }
+            columns = read_many(jacobian.cast::<[f64; 6]>(), count, "jacobian", [0.0; 6])?;
         }
         let Some(place) = hand.limits.get_mut(finger) else { return Ok(()) };
         let bad = |source| Fault::Limit { finger, source };

@@ -2,7 +2,7 @@
 
 use core::ptr;
 
-use fingertip::wrench::{Motion, Wrench};
+use fingertip::wrench::{Frame, Motion, Wrench};
 use fingertip_scene::{GAUGES, GaugeReading};
 use nalgebra::Vector3;
 
@@ -30,8 +30,14 @@ impl ft_wrench {
         Ok(Self { force: [fx, fy, fz], torque: [tx, ty, tz] })
     }
 
+    /// In the frame that a call is about.
     #[inline(always)]
-    pub(crate) fn of(wrench: &Wrench<f64>) -> Self {
+    pub(crate) fn wrench<F: Frame>(&self) -> Wrench<f64, F> {
+        Wrench::on_fingertip(self.force.into(), self.torque.into())
+    }
+
+    #[inline(always)]
+    pub(crate) fn of<F: Frame>(wrench: &Wrench<f64, F>) -> Self {
         Self { force: wrench.force().into(), torque: wrench.torque().into() }
     }
 

@@ -1,10 +1,9 @@
 //! What a hand holds: its weight, and what else touches it.
 
 use fingertip::hand::{OtherContact, UncertainWrench};
-use fingertip::wrench::Wrench;
 use nalgebra::{Matrix6, Vector3};
 
-use crate::border::{on, place, read, read_many};
+use crate::border::{on, place, read, read_numbers};
 use crate::fault::{Fault, ft_status};
 use crate::hand::ft_hand;
 use crate::load::ft_wrench;
@@ -21,9 +20,15 @@ pub struct ft_uncertain_wrench {
 
 impl ft_uncertain_wrench {
     fn given(&self) -> UncertainWrench<f64> {
-        let wrench = Wrench::on_fingertip(self.wrench.force.into(), self.wrench.torque.into());
-        UncertainWrench { wrench, covariance: Matrix6::from(self.covariance).transpose() }
+        UncertainWrench {
+            wrench: self.wrench.wrench(),
+            covariance: Matrix6::from(self.covariance).transpose(),
+        }
     }
+}
+
+fn three(gravity: *const f64) -> Result<Vector3<f64>, Fault> {
+    read_numbers(gravity.cast::<[f64; 3]>(), "gravity").map(Vector3::from)
 }
 
 /// What is known of the object that a hand holds.
@@ -69,9 +74,9 @@ pub struct ft_other {
 }
 
 /// Takes in what the fingers feel together while nothing else touches the object, as ft_object_wrench gives it, with
-/// the three numbers of gravity in the frame of the hand in m/s², less the acceleration of the object where that is known. Samples count as
-/// independent: give them as far apart as their errors last. FT_BAD_NUMBER, and nothing learnt, unless the numbers are finite
-/// and the covariance is positive definite. Allocates nothing.
+/// the three numbers of gravity in the frame of the hand in m/s², less the acceleration of the object where that is known.
+/// Samples count as independent: give them as far apart as their errors last. FT_BAD_NUMBER, and nothing learnt, unless the
+/// numbers are finite and the covariance is positive definite. Allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_hand_weigh(
     hand: *mut ft_hand,
@@ -79,8 +84,7 @@ pub unsafe extern "C" fn ft_hand_weigh(
     gravity: *const f64,
 ) -> ft_status {
     on(hand, |hand| {
-        let (load, gravity) =
-            (read(load, "load")?, Vector3::from(read_many::<f64, 3>(gravity, 3, "gravity", 0.0)?));
+        let (load, gravity) = (read(load, "load")?, three(gravity)?);
         match hand.weight.observe(&load.given(), &gravity) {
             true => Ok(()),
             false => Err(Fault::Number {
@@ -128,8 +132,7 @@ pub unsafe extern "C" fn ft_hand_other(
 ) -> ft_status {
     on(hand, |hand| {
         let place = place(other, "other")?;
-        let (load, gravity) =
-            (read(load, "load")?, Vector3::from(read_many::<f64, 3>(gravity, 3, "gravity", 0.0)?));
+        let (load, gravity) = (read(load, "load")?, three(gravity)?);
         if !(false_alarm > 0.0 && false_alarm < 1.0) {
             return Err(Fault::Number { name: "false_alarm", requirement: "between 0 and 1" });
         }
@@ -146,10 +149,9 @@ pub unsafe extern "C" fn ft_hand_other(
             pitch: 0.0,
         };
         if let Some(found) = OtherContact::new(&load.given(), &hand.weight, &gravity) {
-            let (force, torque) = (found.load.wrench.force().into(), found.load.wrench.torque().into());
             told.is_known = 1;
             told.touches = u32::from(found.touches(false_alarm));
-            told.load.wrench = ft_wrench { force, torque };
+            told.load.wrench = ft_wrench::of(&found.load.wrench);
             told.load.covariance = found.load.covariance.transpose().into();
             told.statistic = found.statistic;
             if let Ok(line) = found.line {

@@ -1,7 +1,6 @@
 //! How good a grasp is.
 
 use fingertip::hand::{Grasp, Metric, Reach};
-use fingertip::wrench::Wrench;
 
 use crate::border::{on, place, read, told};
 use crate::fault::{Fault, ft_status};
@@ -85,7 +84,7 @@ pub unsafe extern "C" fn ft_grasp_quality(
             force_closure: grasp.force_closure().map_or(2, u32::from),
             certified: ball.certified,
             found: ball.found,
-            weakest: ft_wrench { force: ball.weakest.force().into(), torque: ball.weakest.torque().into() },
+            weakest: ft_wrench::of(&ball.weakest),
             freedom_velocity: [[0.0; 3]; 6],
             freedom_turning: [[0.0; 3]; 6],
         };
@@ -115,8 +114,7 @@ pub unsafe extern "C" fn ft_hand_reach(
         hand.check(count)?;
         let fingers = self::fingers(fingers, count)?;
         let load = self::load(load)?.wrench(&fingers, hand.controller.settings().greatest_ratio);
-        let given = read(disturbance, "disturbance")?;
-        let disturbance = Wrench::on_fingertip(given.force.into(), given.torque.into());
+        let disturbance = read(disturbance, "disturbance")?.wrench();
         let (grasp, _) = Grasp::of_fingers(&fingers);
         let found = load.map_or(Reach::Unknown, |load| grasp.reach(&hand.limits, &load, &disturbance));
         let (state, times) = match found {

@@ -1,6 +1,6 @@
 //! The zero of the sensor.
 
-use fingertip::wrench::{TareError, Wrench};
+use fingertip::wrench::{Sensor, TareError, Wrench};
 use fingertip_scene::NoWrench;
 use nalgebra::{Vector3, Vector6};
 
@@ -68,7 +68,7 @@ impl ft_tip {
 }
 
 fn components(reported: &ft_wrench) -> Vector6<f64> {
-    Wrench::<f64>::on_fingertip(reported.force.into(), reported.torque.into()).components()
+    reported.wrench::<Sensor>().components()
 }
 
 /// Takes the signals of the gauges while nothing touches: ft_end_rest makes their mean the zero.
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn ft_set_zero_wrench(tip: *mut ft_tip, wrench: *const ft_
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ft_zero_wrench(tip: *mut ft_tip, wrench: *mut ft_wrench) -> ft_status {
     on(tip, |tip| {
-        place(wrench, "wrench")?.put(ft_wrench::of(&Wrench::from_components(tip.zero())));
+        place(wrench, "wrench")?.put(ft_wrench::of(&Wrench::<f64>::from_components(tip.zero())));
         Ok(())
     })
 }
