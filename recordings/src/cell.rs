@@ -1,9 +1,9 @@
 //! One cell of a row.
 
-use csv::ByteRecord;
-
 use crate::layout::UsedColumn;
+use crate::plain::read_plain;
 use crate::quality::Quality;
+use crate::record::Record;
 use crate::row::RowMarks;
 
 /// What stands in a cell.
@@ -16,12 +16,21 @@ pub(super) enum Cell {
 
 impl Cell {
     #[inline]
-    pub(super) fn read(record: &ByteRecord, used: UsedColumn) -> Self {
-        let cell = record.get(used.column).unwrap_or_default();
+    pub(super) fn read(record: &Record, used: UsedColumn) -> Self {
+        let plain = record.window(used.column).and_then(|(window, length)| read_plain(window, length));
+        match plain {
+            Some(number) => Self::finite(number * used.scale),
+            None => Self::read_whole(record.get(used.column).unwrap_or_default(), used.scale),
+        }
+    }
+
+    /// Any cell: numbers with an exponent or of many digits, and what is no number.
+    #[inline(never)]
+    fn read_whole(cell: &[u8], scale: f64) -> Self {
         // The whole cell first: cells with blanks around the number are rare.
         match fast_float2::parse::<f64, _>(cell) {
-            Ok(number) => Self::finite(number * used.scale),
-            Err(_) => Self::unusual(cell.trim_ascii(), used.scale),
+            Ok(number) => Self::finite(number * scale),
+            Err(_) => Self::unusual(cell.trim_ascii(), scale),
         }
     }
 

@@ -14,8 +14,10 @@ mod layout;
 #[cfg(feature = "mcap")]
 pub mod mcap;
 mod options;
+mod plain;
 mod quality;
 mod reader;
+mod record;
 mod row;
 mod row_block;
 mod shortened;

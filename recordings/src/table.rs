@@ -3,10 +3,9 @@
 use core::fmt;
 use std::io::{Chain, Cursor, Read};
 
-use csv::ByteRecord;
-
 use crate::bounded::Bounded;
 use crate::error::RecordingError;
+use crate::record::{Record, Records};
 use crate::start::{comments, delimiter, read_start};
 
 /// Reads the rows of any CSV with a header, in memory that does not grow with the file: what
@@ -27,8 +26,8 @@ use crate::start::{comments, delimiter, read_start};
 /// ```
 pub struct TableReader<R> {
     file: String,
-    csv: csv::Reader<Bounded<Chain<Cursor<Vec<u8>>, R>>>,
-    pub(super) record: ByteRecord,
+    records: Records<Chain<Cursor<Vec<u8>>, R>>,
+    pub(super) record: Record,
     names: Vec<String>,
     comments: Vec<String>,
     line: u64,
@@ -80,18 +79,16 @@ impl<R: Read> TableReader<R> {
             Err(source) => return Err(RecordingError::Read { file, line: 0, source }),
         };
         let (delimiter, comments) = (delimiter(&start), comments(&start));
-        let csv = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .delimiter(delimiter)
-            // A carriage return before it is trimmed with the blanks around a cell.
-            .terminator(csv::Terminator::Any(b'\n'))
-            .buffer_capacity(1 << 16)
-            .from_reader(Bounded::new(Cursor::new(start).chain(input)));
-        let record = ByteRecord::new();
-        let mut table =
-            Self { file, csv, record, names: Vec::new(), comments, line: 0, cut_line: None, is_ahead: false };
+        let mut table = Self {
+            file,
+            records: Records::new(Cursor::new(start).chain(input), delimiter),
+            record: Record::default(),
+            names: Vec::new(),
+            comments,
+            line: 0,
+            cut_line: None,
+            is_ahead: false,
+        };
         if !table.advance_to_any()? {
             return Err(RecordingError::Empty { file: table.file });
         }
@@ -132,7 +129,7 @@ impl<R: Read> TableReader<R> {
     /// Bytes taken from the input so far, those read ahead included: for a progress bar.
     #[must_use]
     pub fn bytes_read(&self) -> u64 {
-        self.csv.get_ref().total()
+        self.records.input().total()
     }
 
     /// Goes to the next row; `false` at the end.
@@ -148,7 +145,7 @@ impl<R: Read> TableReader<R> {
         if expected == found {
             return Ok(true);
         }
-        if found < expected && self.is_at_cut_end() {
+        if found < expected && self.records.is_at_cut_end() {
             self.cut_line = Some(self.line);
             return Ok(false);
         }
@@ -164,59 +161,37 @@ impl<R: Read> TableReader<R> {
 
     /// Whether this cell, which says nothing, is where the file was cut: the row at hand is then none.
     pub fn is_cut_in(&mut self, column: usize) -> bool {
-        let is_cut = column + 1 == self.names.len() && self.is_at_cut_end();
+        let is_cut = column + 1 == self.names.len() && self.records.is_at_cut_end();
         if is_cut {
             self.cut_line = Some(self.line);
         }
         is_cut
     }
 
-    /// Whether the file ends in the row at hand, without the end of the line.
-    fn is_at_cut_end(&self) -> bool {
-        let input = self.csv.get_ref();
-        // The end that was added is a byte that the file does not have.
-        input.has_added_end() && self.csv.position().byte() > input.total()
-    }
-
     /// Goes to the next line that is not blank.
     fn advance_to_any(&mut self) -> Result<bool, RecordingError> {
         loop {
-            self.csv.get_mut().start_record();
-            match self.csv.read_byte_record(&mut self.record) {
+            match self.records.read(&mut self.record) {
                 Ok(true) if is_blank(&self.record) => {}
                 Ok(true) => {
-                    self.line = line_of_record(&self.csv);
+                    self.line = self.records.line();
                     return Ok(true);
                 }
                 Ok(false) => return Ok(false),
-                Err(error) => {
-                    let reached = self.csv.get_ref().reached();
-                    return Err(read_error(self.file.clone(), self.line, reached, error));
+                Err(source) => {
+                    let (file, line) = (self.file.clone(), self.line);
+                    return Err(if self.records.input().reached() {
+                        RecordingError::TooLong { file, line, limit: Bounded::<()>::LIMIT }
+                    } else {
+                        RecordingError::Read { file, line, source }
+                    });
                 }
             }
         }
     }
 }
 
-#[cold]
-fn read_error(file: String, line: u64, too_long: bool, error: csv::Error) -> RecordingError {
-    if too_long {
-        return RecordingError::TooLong { file, line, limit: Bounded::<()>::LIMIT };
-    }
-    let source = match error.into_kind() {
-        csv::ErrorKind::Io(source) => source,
-        other => std::io::Error::other(format!("{other:?}")),
-    };
-    RecordingError::Read { file, line, source }
-}
-
-/// The line of the record read last: every record ends with a line end, which has been counted. (The
-/// position of the record itself is that of the comments and empty lines before it.)
-fn line_of_record<R: Read>(csv: &csv::Reader<R>) -> u64 {
-    csv.position().line().saturating_sub(1)
-}
-
 /// A line of nothing but blanks.
-fn is_blank(record: &ByteRecord) -> bool {
+fn is_blank(record: &Record) -> bool {
     record.len() <= 1 && record.get(0).is_none_or(|cell| cell.trim_ascii().is_empty())
 }
