@@ -17,7 +17,7 @@ pub(super) enum Cell {
 impl Cell {
     #[inline]
     pub(super) fn read(record: &Record, used: UsedColumn) -> Self {
-        let plain = record.window(used.column).and_then(|(window, length)| read_plain(window, length));
+        let plain = record.cell(used.column).and_then(|(cell, window)| read_plain(cell, window));
         match plain {
             Some(number) => Self::finite(number * used.scale),
             None => Self::read_whole(record.get(used.column).unwrap_or_default(), used.scale),

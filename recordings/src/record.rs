@@ -35,29 +35,22 @@ impl Record {
         self.cells
     }
 
-    /// Where a cell begins and ends in the row; `None` beyond the last.
+    /// A cell, and the last bytes up to its end, which may be more; `None` beyond the last.
     #[inline]
-    fn ends(&self, column: usize) -> Option<(usize, usize)> {
-        let end = *self.ends.get(..self.cells)?.get(column)?;
+    pub(super) fn cell(&self, column: usize) -> Option<(&[u8], &[u8; WINDOW])> {
+        let end = WINDOW + self.ends.get(..self.cells)?.get(column)?;
         let start = match column.checked_sub(1) {
-            Some(before) => *self.ends.get(before)? + self.between,
-            None => 0,
+            Some(before) => WINDOW + self.ends.get(before)? + self.between,
+            None => WINDOW,
         };
-        Some((start, end))
+        let row = self.bytes.get(..end)?;
+        Some((row.get(start..)?, row.last_chunk()?))
     }
 
     /// A cell; `None` beyond the last.
     #[inline]
     pub(super) fn get(&self, column: usize) -> Option<&[u8]> {
-        let (start, end) = self.ends(column)?;
-        self.bytes.get(WINDOW + start..WINDOW + end)
-    }
-
-    /// The last bytes of a cell, with whatever stands before it if it is shorter, and its length; `None` beyond the last.
-    #[inline]
-    pub(super) fn window(&self, column: usize) -> Option<(&[u8; WINDOW], usize)> {
-        let (start, end) = self.ends(column)?;
-        Some((self.bytes.get(..WINDOW + end)?.last_chunk()?, end.checked_sub(start)?))
+        self.cell(column).map(|(cell, _)| cell)
     }
 
     /// The cells in their order.
