@@ -76,10 +76,15 @@ fn false_alarms_are_those_asked_for() {
     }
 }
 
-/// Alarms a minute that are borne: twice what was asked, but on touches in the strongest hum, as documented.
-fn most(kind: Kind, rate: f64) -> f64 {
-    let strong = matches!(kind, Kind::Hum { size, .. } if size >= 10.0);
-    if strong && rate > 1000.0 { 4.0 } else { 2.0 }
+/// In a hum of ten deviations the line of the ratio swings, and what it foretells is off as soon as the normal force falls:
+/// each release is no slip.
+#[test]
+fn a_release_in_a_strong_hum_is_no_slip() {
+    for kind in [KINDS[10].1, KINDS[11].1] {
+        let found = in_touches(kind, 2000.0, 1_200_000, 1.0);
+        println!("{kind:?}: {found:.2} a minute on touches, asked 1");
+        assert!(found <= 1.0, "{kind:?}: {found}");
+    }
 }
 
 /// The long version: ten million samples of each kind at each rate in a hold, and as many on touches that end in
@@ -93,7 +98,7 @@ fn false_alarms_are_those_asked_for_in_ten_million_samples() {
             let (hold, touches) =
                 (in_a_hold::<f64>(kind, rate, 10_000_000, 1.0), in_touches(kind, rate, 10_000_000, 1.0));
             println!("{name}, {rate} Hz: {hold:.2} a minute in a hold, {touches:.2} on touches, asked 1");
-            if hold > 2.0 || touches > most(kind, rate) {
+            if hold > 2.0 || touches > 2.0 {
                 above.push(format!("{name}, {rate} Hz: {hold:.2}, {touches:.2}"));
             }
         }
