@@ -9,8 +9,8 @@ use crate::plain::WINDOW;
 
 /// Bytes that are read at a time.
 const BUFFER: usize = 1 << 16;
-/// Room for the cells of a row at first.
-const ROOM: usize = 1 << 10;
+/// Bytes and cells by which room grows that is too small for a row, beside twice what there is.
+const ROOM: usize = 1 << 6;
 
 /// The cells of one row.
 pub(super) struct Record {
@@ -152,9 +152,8 @@ impl<R: Read> Records<R> {
     #[inline]
     pub(super) fn read(&mut self, record: &mut Record) -> io::Result<bool> {
         self.input.start_record();
-        // A mark of the order of bytes may come before the first.
-        if self.taken > 0
-            && let Some(rest) = self.buffer.get(self.start..self.filled)
+        // The first row, before which a mark of the order of bytes may stand, is not in the buffer yet.
+        if let Some(rest) = self.buffer.get(self.start..self.filled)
             && let Some(length) = record.take_plain(rest, self.delimiter)
         {
             self.take(length);
@@ -178,8 +177,6 @@ impl<R: Read> Records<R> {
         if core::mem::replace(&mut self.has_ended, true) {
             return Ok(false);
         }
-        bytes.resize(bytes.capacity().max(ROOM), 0);
-        ends.resize(ends.capacity().max(ROOM / 8), 0);
         let (mut written, mut ended) = (0, 0);
         loop {
             if self.start == self.filled {
@@ -195,8 +192,8 @@ impl<R: Read> Records<R> {
             ended += new;
             match result {
                 ReadRecordResult::InputEmpty => {}
-                ReadRecordResult::OutputFull => bytes.resize(2 * bytes.len(), 0),
-                ReadRecordResult::OutputEndsFull => ends.resize(2 * ends.len(), 0),
+                ReadRecordResult::OutputFull => bytes.resize(2 * bytes.len() + ROOM, 0),
+                ReadRecordResult::OutputEndsFull => ends.resize(2 * ends.len() + ROOM, 0),
                 ReadRecordResult::Record => {
                     *cells = ended;
                     self.has_ended = false;
