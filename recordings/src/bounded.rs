@@ -12,7 +12,6 @@ pub(super) struct Bounded<R> {
     total: u64,
     reached: bool,
     ended: bool,
-    added: bool,
 }
 
 impl<R> Bounded<R> {
@@ -20,7 +19,7 @@ impl<R> Bounded<R> {
     pub(super) const LIMIT: u64 = 1 << 20;
 
     pub(super) const fn new(inner: R) -> Self {
-        Self { inner, since: 0, total: 0, reached: false, ended: true, added: false }
+        Self { inner, since: 0, total: 0, reached: false, ended: true }
     }
 
     /// A record is complete: the next one starts.
@@ -33,12 +32,7 @@ impl<R> Bounded<R> {
         self.reached
     }
 
-    /// Whether the last line had no end of its own.
-    pub(super) const fn has_added_end(&self) -> bool {
-        self.added
-    }
-
-    /// All bytes passed.
+    /// All bytes passed, without the end that was added.
     pub(super) const fn total(&self) -> u64 {
         self.total
     }
@@ -63,7 +57,6 @@ impl<R: Read> Read for Bounded<R> {
         {
             *first = b'\n';
             self.ended = true;
-            self.added = true;
             return Ok(1);
         }
         if let Some(last) = count.checked_sub(1).and_then(|last| buffer.get(last)) {

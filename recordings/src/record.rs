@@ -142,7 +142,7 @@ impl<R: Read> Records<R> {
     /// Whether the file ends in the row read last, without the end of the line.
     pub(super) fn is_at_cut_end(&self) -> bool {
         // The end that was added is a byte that the file does not have.
-        self.input.has_added_end() && self.taken > self.input.total()
+        self.taken > self.input.total()
     }
 
     /// Reads the next row; `false` at the end, and behind a failure. Empty lines may be passed over.

@@ -66,3 +66,52 @@ impl Pending {
         self.count = 0;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Pending;
+
+    /// Bits, so that a NaN equals itself.
+    fn columns(pending: &Pending) -> Vec<Vec<u64>> {
+        pending.columns().map(|column| column.iter().map(|x| x.to_bits()).collect()).collect()
+    }
+
+    fn bits(columns: &[&[f64]]) -> Vec<Vec<u64>> {
+        columns.iter().map(|column| column.iter().map(|x| x.to_bits()).collect()).collect()
+    }
+
+    #[test]
+    fn the_last_reading_of_a_piece_comes_before_those_of_the_next() {
+        let mut pending = Pending::new(2);
+        assert!(pending.is_empty() && !pending.is_full());
+        assert_eq!(columns(&pending), bits(&[&[f64::NAN], &[f64::NAN]]));
+        pending.push(0.1, &[1.0, 10.0]);
+        // A channel without a reading.
+        pending.push(0.2, &[2.0]);
+        assert_eq!(pending.times(), [0.1, 0.2]);
+        assert_eq!(columns(&pending), bits(&[&[f64::NAN, 1.0, 2.0], &[f64::NAN, 10.0, f64::NAN]]));
+        assert_eq!(pending.readings(0), Some(&[1.0, 2.0][..]));
+        assert!(pending.readings(2).is_none());
+        pending.clear();
+        assert!(pending.is_empty() && pending.times().is_empty());
+        assert_eq!(columns(&pending), bits(&[&[2.0], &[f64::NAN]]));
+        pending.push(0.3, &[3.0, 30.0]);
+        assert_eq!(columns(&pending), bits(&[&[2.0, 3.0], &[f64::NAN, 30.0]]));
+        assert_eq!(pending.readings(1), Some(&[30.0][..]));
+    }
+
+    #[test]
+    fn there_is_room_for_so_many_and_no_more() {
+        let mut pending = Pending::new(1);
+        for count in 0..Pending::MOST {
+            assert!(!pending.is_full());
+            pending.push(count as f64, &[count as f64]);
+        }
+        let full = columns(&pending);
+        pending.push(-1.0, &[-1.0]);
+        assert!(pending.is_full() && columns(&pending) == full);
+        assert_eq!(pending.times().len(), Pending::MOST);
+        pending.clear();
+        assert_eq!(columns(&pending), bits(&[&[(Pending::MOST - 1) as f64]]));
+    }
+}
