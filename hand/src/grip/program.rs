@@ -69,7 +69,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Missing<T, N, ROWS> {
     }
 
     /// How much it is: of the gap as a share of the optimum, and of the equations.
-    fn off(&self, tau: T) -> T {
+    pub(crate) fn off(&self, tau: T) -> T {
         let size = self.cost.abs().max(self.value.abs()).max(T::literal(1e-3) * tau);
         (self.primal.max(self.dual) / tau).max((self.cost - self.value).abs() / size)
     }
@@ -110,7 +110,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
     }
 
     /// What an iterate misses: all of it.
-    fn missing(&self, at: &Iterate<T, N, ROWS>) -> Missing<T, N, ROWS> {
+    pub(crate) fn missing(&self, at: &Iterate<T, N, ROWS>) -> Missing<T, N, ROWS> {
         let (zero, against) = (T::zero(), -at.twist);
         let mut blocks: Each<_, N> = Each::all(Residual::none());
         blocks.change_with_two((&self.blocks, &at.blocks), |residual, block, inner| {
