@@ -46,17 +46,21 @@ pub(crate) fn step_to_boundary<T: Real>(y: &Vector4<T>, det: T, d: &Vector4<T>, 
     // det(y + αd) = a α² + 2b α + c, and the first component must stay positive.
     let b = y.x * d.x - (y.y * d.y + y.z * d.z + y.w * d.w);
     let a = d.x * d.x - (d.y * d.y + d.z * d.z + d.w * d.w);
+    // Where the end is inside, all before it is: most often it is, and no root is needed.
+    if y.x + d.x * most >= T::zero() && det + most * (b + b + a * most) >= T::zero() {
+        return most;
+    }
     let discriminant = b * b - a * det;
     let mut step = most;
     if y.x + d.x * step < T::zero() {
-        step = step.min(-y.x / d.x);
+        step = -y.x / d.x;
     }
     if discriminant >= T::zero() && (b < T::zero() || a < T::zero()) {
         // The smallest positive root, without cancellation.
         let root = discriminant.root();
         let found = if b < T::zero() { det / (root - b) } else { -(b + root) / a };
-        if found >= T::zero() {
-            step = step.min(found);
+        if found >= T::zero() && found < step {
+            step = found;
         }
     }
     step

@@ -43,14 +43,14 @@ impl<T: Real, const ROWS: usize> Interior<T, ROWS> {
             && self.rows.iter().all(|row| positive(row.slack) && positive(row.price))
     }
 
-    /// Goes half the way to another.
-    pub(crate) fn go_halfway(&mut self, other: &Self) {
-        let half = T::literal(0.5);
-        self.y = (self.y + other.y) * half;
-        self.z = (self.z + other.z) * half;
+    /// This share of it and the rest of another.
+    #[inline]
+    pub(crate) fn mix(&mut self, other: &Self, share: T, rest: T) {
+        self.y = self.y * share + other.y * rest;
+        self.z = self.z * share + other.z * rest;
         for (row, other) in self.rows.iter_mut().zip(&other.rows) {
-            row.slack = (row.slack + other.slack) * half;
-            row.price = (row.price + other.price) * half;
+            row.slack = row.slack * share + other.slack * rest;
+            row.price = row.price * share + other.price * rest;
         }
     }
 

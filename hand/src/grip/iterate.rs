@@ -116,20 +116,27 @@ impl<T: Real, const N: usize, const ROWS: usize> Iterate<T, N, ROWS> {
             && self.blocks.iter().all(Interior::is_inside)
     }
 
-    /// Goes back towards an iterate inside, half the way and half of that, where rounding has had a step lead outside;
-    /// `false` if that does not help.
+    /// Goes back towards an iterate inside, a sixteenth of the way, then by halves, where rounding has had a step lead
+    /// outside; `false` if that does not help.
     pub(crate) fn return_inside(&mut self, before: &Self) -> bool {
-        let half = T::literal(0.5);
-        for _ in 0..4 {
-            self.blocks.change_with(&before.blocks, |at, before| at.go_halfway(before));
-            self.twist = (self.twist + before.twist) * half;
-            self.tau = (self.tau + before.tau) * half;
-            self.kappa = (self.kappa + before.kappa) * half;
+        for back in [0.0625, 0.5, 0.5, 0.5, 0.5] {
+            *self = self.between(before, T::literal(1.0 - back));
             if self.is_inside() {
                 return true;
             }
         }
         false
+    }
+
+    /// The point that is this share of the way from another here.
+    pub(crate) fn between(&self, before: &Self, share: T) -> Self {
+        let mut at = *self;
+        let rest = T::one() - share;
+        at.blocks.change_with(&before.blocks, |at, before| at.mix(before, share, rest));
+        at.twist = at.twist * share + before.twist * rest;
+        at.tau = at.tau * share + before.tau * rest;
+        at.kappa = at.kappa * share + before.kappa * rest;
+        at
     }
 
     /// Takes an iterate with `τ = 1` farther inside, the farther the more the problem has moved since.
@@ -213,13 +220,17 @@ mod tests {
             (at.tau, at.twist.x) = (3.0, 8.0);
             at
         };
+        // A sixteenth is enough where it was rounding.
+        let mut hardly = outside(-0.0625);
+        assert!(hardly.return_inside(&before));
+        assert_eq!((hardly.blocks.fingers[1].z.x, hardly.tau), (1.0 - 1.0625 * 0.9375, 2.875));
         let mut near = outside(-0.5);
         assert!(near.return_inside(&before));
-        assert_eq!((near.blocks.fingers[1].z.x, near.blocks.fingers[0].rows[0].price), (0.25, 1.5));
-        assert_eq!((near.tau, near.twist.x), (2.0, 4.0));
+        assert_eq!((near.blocks.fingers[1].z.x, near.blocks.fingers[0].rows[0].price), (0.296875, 1.46875));
+        assert_eq!((near.tau, near.twist.x), (1.9375, 3.75));
         let mut far = outside(-2.0);
         assert!(far.return_inside(&before));
-        assert_eq!((far.blocks.fingers[1].z.x, far.tau, far.twist.x), (0.25, 1.5, 2.0));
+        assert_eq!((far.blocks.fingers[1].z.x, far.tau, far.twist.x), (0.296875, 1.46875, 1.875));
         assert!(!outside(-20.0).return_inside(&before) && !outside(f64::NAN).return_inside(&before));
     }
 }

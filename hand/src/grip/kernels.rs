@@ -39,13 +39,13 @@ pub(crate) fn add_pull<T: Real>(map: &Matrix6x4<T>, twist: &Vector6<T>, force: &
     }
 }
 
-/// Adds `map·mapᵀ` to the lower half of a sum.
+/// Adds `map·mapᵀ` to the lower half of a sum, and to what else lets its rows go in pairs.
 #[inline(never)]
 pub(crate) fn add_square<T: Real>(map: &Matrix6x4<T>, sum: &mut Matrix6<T>) {
     let sum = &mut sum.data.0;
     for column in &map.data.0 {
         for j in 0..6 {
-            for i in j..6 {
+            for i in (j & !1)..6 {
                 sum[j][i] += column[i] * column[j];
             }
         }

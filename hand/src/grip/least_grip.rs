@@ -26,7 +26,7 @@ pub struct Precision<T> {
 }
 
 impl<T: Real> Precision<T> {
-    /// Half the digits of the scalar type, and 30 steps; five to twelve are usual.
+    /// Half the digits of the scalar type, and 30 steps; four to nine are usual.
     #[must_use]
     pub fn usual() -> Self {
         Self { tolerance: T::EPSILON.root(), steps: 30 }

@@ -11,6 +11,7 @@ mod least_grip;
 mod outcome;
 mod program;
 mod scaled;
+mod scaled_row;
 mod step;
 mod workspace;
 

@@ -61,11 +61,17 @@ pub(crate) struct Missing<T: Real, const N: usize, const ROWS: usize> {
 }
 
 impl<T: Real, const N: usize, const ROWS: usize> Missing<T, N, ROWS> {
-    /// Whether it is no more than a share of the optimum, and of the equations.
-    fn is_within(&self, tolerance: T, tau: T) -> bool {
-        let gap = (self.cost - self.value).abs();
+    /// What a step leaves of the equations: this share of what was missing.
+    pub(crate) fn leave(&mut self, share: T) {
+        self.equilibrium *= share;
+        self.primal *= share;
+        self.dual *= share;
+    }
+
+    /// How much it is: of the gap as a share of the optimum, and of the equations.
+    pub(crate) fn off(&self, tau: T) -> T {
         let size = self.cost.abs().max(self.value.abs()).max(T::literal(1e-3) * tau);
-        self.primal <= tolerance * tau && self.dual <= tolerance * tau && gap <= tolerance * size
+        (self.primal.max(self.dual) / tau).max((self.cost - self.value).abs() / size)
     }
 }
 
@@ -104,7 +110,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
     }
 
     /// What an iterate misses: all of it.
-    fn missing(&self, at: &Iterate<T, N, ROWS>) -> Missing<T, N, ROWS> {
+    pub(crate) fn missing(&self, at: &Iterate<T, N, ROWS>) -> Missing<T, N, ROWS> {
         let (zero, against) = (T::zero(), -at.twist);
         let mut blocks: Each<_, N> = Each::all(Residual::none());
         blocks.change_with_two((&self.blocks, &at.blocks), |residual, block, inner| {
@@ -112,10 +118,9 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
                 *residual = block.residual(inner, &against, at.tau);
             }
         });
-        let none = Vector6::zeros();
         let mut missing = Missing {
             blocks,
-            equilibrium: none,
+            equilibrium: self.equilibrium(at),
             of_tau: zero,
             complementarity: zero,
             primal: zero,
@@ -123,36 +128,32 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
             cost: zero,
             value: zero,
         };
+        missing.primal = largest(missing.equilibrium.as_slice(), zero);
+        for residual in missing.blocks.iter() {
+            missing.dual = largest(residual.dual.as_slice(), missing.dual);
+            missing.primal = largest(&residual.rows, missing.primal);
+        }
         self.look(at, &mut missing);
         missing
     }
 
-    /// The same from what is missing of the blocks' equations.
+    /// What costs and complementarity are, and by them the equation of τ.
     fn look(&self, at: &Iterate<T, N, ROWS>, missing: &mut Missing<T, N, ROWS>) {
-        let zero = T::zero();
-        let mut equilibrium = self.wrench * -at.tau;
-        let (mut primal, mut dual, mut cost, mut value) = (zero, zero, zero, self.wrench.dot(&at.twist));
+        let (mut cost, mut value) = (T::zero(), self.wrench.dot(&at.twist));
         let (mut complementarity, mut degree) = (at.tau * at.kappa, T::one());
-        missing.blocks.change_with_two((&self.blocks, &at.blocks), |residual, block, inner| {
-            let Some(block) = block else { return };
-            add(&block.map, &inner.y, &mut equilibrium);
-            dual = largest(residual.dual.as_slice(), dual);
-            primal = largest(&residual.rows, primal);
+        for (block, inner) in self.present(at) {
             cost += block.cost * inner.y.x;
             complementarity += inner.y.dot(&inner.z);
             degree += T::one();
-            for (row, pair) in block.rows.iter().zip(&inner.rows) {
-                let Some(row) = row else { continue };
+            for (row, pair) in block.with(&inner.rows) {
                 value -= row.bound * pair.price;
                 complementarity += pair.slack * pair.price;
                 degree += T::one();
             }
-        });
-        missing.primal = largest(equilibrium.as_slice(), primal);
-        missing.equilibrium = equilibrium;
+        }
         missing.of_tau = value - cost - at.kappa;
         missing.complementarity = complementarity / degree;
-        (missing.dual, missing.cost, missing.value) = (dual, cost, value);
+        (missing.cost, missing.value) = (cost, value);
     }
 
     /// By how much the pull on the contacts leaves the dual cones.
@@ -177,7 +178,7 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
     }
 
     /// Goes on from an interior iterate, and leaves the last one there. Returns how it ended, after how many steps.
-    /// `midway` becomes the first iterate that is within a thousandth of the end: well inside everything, so that a
+    /// `midway` becomes the point on the way that is a thousandth off the end: well inside everything, so that a
     /// problem that is nearly the same is better begun there than at the solution.
     pub(crate) fn iterate(
         &self,
@@ -187,34 +188,45 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
     ) -> (Ending, u32) {
         let nearly_enough = (stop.tolerance * T::literal(32.0)).min(T::literal(2e-3)).max(stop.tolerance);
         let close = T::literal(1e-3).max(stop.tolerance);
+        let half = T::literal(0.5);
         // The best that is nearly there: rounding may stop progress just before the end.
         let mut nearly: Option<(Iterate<T, N, ROWS>, T)> = None;
         let mut missing = self.missing(at);
         let mut work = Workspace::new(&self.blocks);
         let mut steps = 0;
+        let (mut before, mut off_before) = (*at, close);
         *midway = None;
+        if self.blocks.iter().all(Option::is_none) && self.wrench.amax() > T::zero() {
+            // Nothing gives a force: any wrench is its own certificate.
+            at.twist = self.wrench;
+            return (Ending::Infeasible, 0);
+        }
         loop {
+            let mut off = missing.off(at.tau);
             // What a step carries on of the residuals loses what rounding takes: what may end it is looked at anew.
-            if missing.is_within(nearly_enough, at.tau) || missing.cost < T::zero() {
+            if off <= nearly_enough || missing.cost < T::zero() {
                 missing = self.missing(at);
+                off = missing.off(at.tau);
+            }
+            if midway.is_none() && off <= close {
+                let share =
+                    if off_before > close { (off_before - close) / (off_before - off) } else { T::one() };
+                *midway = Some(at.between(&before, share));
+            }
+            if off <= stop.tolerance {
+                return (Ending::Solved, steps);
             }
             if let Some(ending) = self.ending(at, &missing, stop) {
-                if midway.is_none() {
-                    *midway = Some(*at);
-                }
                 return (ending, steps);
             }
-            if midway.is_none() && missing.is_within(close, at.tau) {
-                *midway = Some(*at);
-            }
-            if missing.is_within(nearly_enough, at.tau) {
-                let off = (missing.cost - missing.value).abs() / at.tau;
-                if nearly.as_ref().is_none_or(|(_, least)| off < *least) {
-                    nearly = Some((*at, off));
+            if off <= nearly_enough {
+                let gap = (missing.cost - missing.value).abs() / at.tau;
+                if nearly.as_ref().is_none_or(|(_, least)| gap < *least) {
+                    nearly = Some((*at, gap));
                 }
             }
-            let before = *at;
-            if steps >= stop.steps || !self.step(at, &mut missing, &mut work) {
+            (before, off_before) = (*at, off);
+            if steps >= stop.steps || !self.step(at, &mut missing, &mut work, stop.tolerance * half / off) {
                 break;
             }
             steps += 1;
@@ -235,15 +247,13 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         }
     }
 
+    /// Whether it has become clear that there is no solution.
     fn ending(
         &self,
         at: &Iterate<T, N, ROWS>,
         missing: &Missing<T, N, ROWS>,
         stop: &Stop<T>,
     ) -> Option<Ending> {
-        if missing.is_within(stop.tolerance, at.tau) {
-            return Some(Ending::Solved);
-        }
         // Any forces that hold cost Σ y₀ ≥ value/violation.
         if missing.value > T::zero()
             && at.kappa > at.tau

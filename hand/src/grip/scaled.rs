@@ -7,6 +7,7 @@ use crate::grip::block::{Block, Residual};
 use crate::grip::cone::{Scaling, divide, product};
 use crate::grip::interior::{Interior, unit};
 use crate::grip::kernels::{add_pull, add_square, reflect_columns, subtract};
+use crate::grip::scaled_row::ScaledRow;
 
 /// A block that was factored at an iterate, and where it goes.
 ///
@@ -35,45 +36,10 @@ pub(crate) struct Scaled<T: Real, const ROWS: usize> {
     target: Vector4<T>,
     /// Where it goes: `F⁻¹dy`, `W⁻¹dy` and `W dz`.
     x: Vector4<T>,
+    /// What the last correction adds to it.
+    more: Vector4<T>,
     y: Vector4<T>,
     z: Vector4<T>,
-}
-
-/// A half-space in the scaled space; all zero where there is none, with a slack and a price of one.
-#[derive(Clone, Copy, Debug)]
-struct ScaledRow<T: Real> {
-    /// `Fᵀ normal`.
-    normal: Vector4<T>,
-    bound: T,
-    slack: T,
-    price: T,
-    /// `1/slack`, and `D = price/slack`.
-    inverse_slack: T,
-    stiffness: T,
-    residual: T,
-    /// What is asked of the complementarity, `price dσ + slack dλ`.
-    target: T,
-    /// `dσ` and `dλ`.
-    slack_along: T,
-    price_along: T,
-}
-
-impl<T: Real> ScaledRow<T> {
-    fn none() -> Self {
-        let (zero, one) = (T::zero(), T::one());
-        Self {
-            normal: Vector4::zeros(),
-            bound: zero,
-            slack: one,
-            price: one,
-            inverse_slack: zero,
-            stiffness: zero,
-            residual: zero,
-            target: zero,
-            slack_along: zero,
-            price_along: zero,
-        }
-    }
 }
 
 /// `(I − β u uᵀ) v`.
@@ -104,6 +70,7 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
             of_tau: none,
             target: none,
             x: none,
+            more: none,
             y: none,
             z: none,
         }
@@ -243,6 +210,36 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
         self.x = x;
         subtract(&self.mapped, &self.x, right);
         of_tau
+    }
+
+    /// The corrector's target again, now that it is known better where it goes: takes what that asks for besides off a
+    /// wrench, and returns it of τ.
+    #[inline]
+    pub(crate) fn correct_again(&mut self, centre: T, right: &mut Vector6<T>) -> T {
+        let before = self.target;
+        let rows_before = self.rows.map(|row| row.target);
+        self.correct(centre);
+        let mut more = self.target - before;
+        for reflection in self.reflections.iter().take(Self::present(self.used)) {
+            reflect(reflection, &mut more);
+        }
+        let mut of_tau = T::zero();
+        for (row, before) in self.rows.iter().zip(&rows_before).take(Self::present(self.used)) {
+            let share = (row.target - *before) * row.inverse_slack;
+            more -= row.normal * share;
+            of_tau += row.bound * share;
+        }
+        self.more = more;
+        subtract(&self.mapped, &self.more, right);
+        of_tau
+    }
+
+    /// Goes with what a twist asks for besides. Returns the same of τ as [`Self::pull`].
+    #[inline]
+    pub(crate) fn pull_more(&mut self, twist: &Vector6<T>) -> T {
+        add_pull(&self.mapped, twist, &mut self.more);
+        self.x += self.more;
+        self.weights.dot(&self.more)
     }
 
     /// Goes with a twist. Returns `(GᵀD h + cost)·F x`.

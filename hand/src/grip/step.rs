@@ -9,6 +9,9 @@ use crate::grip::program::{Missing, Program};
 use crate::grip::scaled::Scaled;
 use crate::grip::workspace::Workspace;
 
+/// Most corrections of a step after the first.
+const MORE_CORRECTIONS: usize = 3;
+
 /// The equations of a step, factored at an iterate.
 struct System<'a, T: Real, const N: usize, const ROWS: usize> {
     program: &'a Program<T, N, ROWS>,
@@ -26,6 +29,14 @@ struct Direction<T: Real> {
     twist: Vector6<T>,
     tau: T,
     kappa: T,
+    /// The part of second order in `τκ` that it was made for.
+    second: T,
+}
+
+/// What the correctors aim at: so much complementarity everywhere, and all but this share of the residuals to stay.
+struct Aim<T> {
+    centre: T,
+    keep: T,
 }
 
 impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {
@@ -60,7 +71,8 @@ impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {
 
     /// The direction towards the targets of the blocks, with `keep` of the residuals to go. Where it is `refined`, the
     /// equilibrium of its forces is solved for once more.
-    fn direction(&mut self, of_tau: T, keep: T, refined: bool) -> Direction<T> {
+    fn direction(&mut self, (first, second): (T, T), keep: T, refined: bool) -> Direction<T> {
+        let of_tau = first - second;
         let (missing, wrench) = (self.missing, &self.program.wrench);
         let (tau_now, kappa_now) = self.at;
         let mut right = missing.equilibrium * -keep;
@@ -89,7 +101,67 @@ impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {
                 block.arrive(keep, tau);
             });
         }
-        Direction { twist, tau, kappa: (of_tau - kappa_now * tau) / tau_now }
+        Direction { twist, tau, kappa: (of_tau - kappa_now * tau) / tau_now, second }
+    }
+
+    /// The predictor: towards no complementarity and no residuals.
+    fn predict(&mut self) -> Direction<T> {
+        self.each(Scaled::predict);
+        let (tau, kappa) = self.at;
+        self.direction((-(tau * kappa), T::zero()), T::one(), false)
+    }
+
+    /// The corrector, of second order by where the predictor went.
+    fn correct(&mut self, predicted: &Direction<T>, aim: &Aim<T>) -> Direction<T> {
+        self.each(|block| block.correct(aim.centre));
+        let (tau, kappa) = self.at;
+        self.direction((aim.centre - tau * kappa, predicted.tau * predicted.kappa), aim.keep, true)
+    }
+
+    /// Corrects a direction by where it went itself, and that one again, until its greatest step is enough. Where that
+    /// shortens the step by a third, it is the first corrector's.
+    fn correct_more(&mut self, first: (Direction<T>, T), aim: &Aim<T>, enough: T) -> (Direction<T>, T) {
+        let most = T::literal(2.0);
+        let (mut along, mut reach) = first;
+        for _ in 0..MORE_CORRECTIONS {
+            if reach >= enough {
+                break;
+            }
+            self.correct_again(&mut along, aim);
+            let further = self.greatest_step(&along, most);
+            if further < reach * T::literal(2.0 / 3.0) {
+                let predicted = self.predict();
+                along = self.correct(&predicted, aim);
+                reach = self.greatest_step(&along, most);
+                break;
+            }
+            reach = further;
+        }
+        (along, reach)
+    }
+
+    /// One of these corrections. Only what changes is solved for, so that rounding does not come in anew.
+    fn correct_again(&mut self, along: &mut Direction<T>, aim: &Aim<T>) {
+        let (tau_now, kappa_now) = self.at;
+        let second = along.tau * along.kappa;
+        let change = along.second - second;
+        let mut right = Vector6::zeros();
+        let mut last = change / tau_now;
+        self.each(|block| last += block.correct_again(aim.centre, &mut right));
+        let mut twist = self.cholesky.solve(&right);
+        last -= self.program.wrench.dot(&twist);
+        self.each(|block| last += block.pull_more(&twist));
+        let tau = last / self.pivot;
+        twist += self.twist * tau;
+        let whole = along.tau + tau;
+        self.each(|block| {
+            block.go_with_tau(tau);
+            block.arrive(aim.keep, whole);
+        });
+        along.twist += twist;
+        along.tau = whole;
+        along.kappa += (change - kappa_now * tau) / tau_now;
+        along.second = second;
     }
 
     fn greatest_step(&mut self, along: &Direction<T>, most: T) -> T {
@@ -106,25 +178,33 @@ impl<'a, T: Real, const N: usize, const ROWS: usize> System<'a, T, N, ROWS> {
 }
 
 impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
-    /// One step of predictor and corrector from an iterate, of which it is known what it misses; of that, what is left of
-    /// the blocks' equations. `false`, and nothing changed, if the step leads nowhere.
+    /// One step of predictor and correctors from an iterate, of which it is known what it misses; of that, what is left of
+    /// the equations. It need not leave less than so small a share. `false`, and nothing changed, if the step leads nowhere.
     pub(crate) fn step(
         &self,
         at: &mut Iterate<T, N, ROWS>,
         missing: &mut Missing<T, N, ROWS>,
         work: &mut Workspace<T, N, ROWS>,
+        may_leave: T,
     ) -> bool {
         let mut system = System::new(self, at, missing, &mut work.scaled);
-        let (one, gap) = (T::one(), at.tau * at.kappa);
-        system.each(Scaled::predict);
-        let predicted = system.direction(-gap, one, false);
+        let one = T::one();
+        let predicted = system.predict();
         let left = one - system.greatest_step(&predicted, one);
-        let sigma = left * left * left;
-        let (centre, keep) = (sigma * missing.complementarity, one - sigma);
-        system.each(|block| block.correct(centre));
-        let along = system.direction(centre - gap - predicted.tau * predicted.kappa, keep, true);
-        let most = T::literal(2.0);
-        let step = (system.greatest_step(&along, most) * T::literal(0.99)).min(one);
+        let sigma = left * left;
+        let aim = Aim { centre: sigma * missing.complementarity, keep: one - sigma };
+        // The better the prediction, the nearer to the border.
+        let held_back = sigma.min(T::literal(0.01)).max(T::EPSILON.root());
+        let mut along = system.correct(&predicted, &aim);
+        let mut reach = system.greatest_step(&along, T::literal(2.0));
+        let needed = (one - may_leave) / aim.keep;
+        if left < T::literal(0.6) {
+            let enough = needed.min(one) / (one - held_back);
+            (along, reach) = system.correct_more((along, reach), &aim, enough);
+        }
+        // Where it is the end anyway, no nearer than rounding bears.
+        let well_inside = reach * T::literal(0.99);
+        let step = if well_inside >= needed { well_inside } else { reach * (one - held_back) }.min(one);
         if !(step > T::literal(1e-6)) {
             return false;
         }
@@ -132,12 +212,95 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         let given = (&self.blocks, &work.scaled);
         at.blocks.change_both_with_two(&mut missing.blocks, given, |at, residual, block, scaled| {
             if let (Some(block), Some(scaled)) = (block, scaled) {
-                scaled.advance(block, at, residual, (keep, step), against);
+                scaled.advance(block, at, residual, (aim.keep, step), against);
             }
         });
+        missing.leave(one - aim.keep * step);
         at.twist += along.twist * step;
         at.tau += along.tau * step;
         at.kappa += along.kappa * step;
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Aim, System};
+    use crate::grip::block::{Block, Row};
+    use crate::grip::iterate::{Each, Iterate};
+    use crate::grip::program::{Ending, Program, Stop};
+    use crate::grip::workspace::Workspace;
+    use nalgebra::{Matrix6x4, Vector4, Vector6};
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    /// Four contacts of any map, one of them with a half-space.
+    fn program(rng: &mut Pcg64Mcg) -> Program<f64, 4, 1> {
+        let mut blocks = Each::all(None);
+        for block in &mut blocks.fingers {
+            let map = Matrix6x4::from_fn(|_, _| rng.random_range(-1.0..1.0));
+            *block = Some(Block { map, cost: 1.0, rows: [None] });
+        }
+        if let Some(block) = &mut blocks.fingers[1] {
+            block.rows = [Some(Row { normal: Vector4::x(), bound: 0.7, opposite: false })];
+        }
+        Program { blocks, wrench: Vector6::from_fn(|_, _| rng.random_range(-1.0..1.0)), cost_factor: 1.0 }
+    }
+
+    /// The law of τ and κ, `κ dτ + τ dκ = centre − τκ − dτ dκ`, where the last is that of the direction before.
+    #[test]
+    fn each_correction_is_of_the_direction_before() {
+        let mut rng = Pcg64Mcg::seed_from_u64(41);
+        for _ in 0..50 {
+            let program = program(&mut rng);
+            let mut at = Iterate::middle();
+            (at.tau, at.kappa) = (rng.random_range(0.3..2.0), rng.random_range(0.3..2.0));
+            let missing = program.missing(&at);
+            let mut work = Workspace::new(&program.blocks);
+            let mut system = System::new(&program, &at, &missing, &mut work.scaled);
+            let aim = Aim { centre: 0.1, keep: 0.9 };
+            let mut before = system.predict();
+            let mut along = system.correct(&before, &aim);
+            for _ in 0..3 {
+                let found = at.kappa * along.tau + at.tau * along.kappa;
+                let wanted = aim.centre - at.tau * at.kappa - before.tau * before.kappa;
+                assert!((found - wanted).abs() < 1e-12 * (1.0 + wanted.abs()), "{found} {wanted}");
+                (before.tau, before.kappa) = (along.tau, along.kappa);
+                system.correct_again(&mut along, &aim);
+            }
+        }
+    }
+
+    /// What a step is said to leave of the equations is what is missing then; also after a start from the way.
+    #[test]
+    fn what_a_step_leaves_is_known() {
+        let mut rng = Pcg64Mcg::seed_from_u64(42);
+        let mut solved = 0;
+        for _ in 0..50 {
+            let program = program(&mut rng);
+            let mut at = Iterate::middle();
+            let mut missing = program.missing(&at);
+            let mut work = Workspace::new(&program.blocks);
+            for _ in 0..4 {
+                let before = missing.of_tau;
+                let equilibrium = missing.equilibrium;
+                assert!(program.step(&mut at, &mut missing, &mut work, 0.0));
+                let found = program.missing(&at);
+                assert!((found.equilibrium - missing.equilibrium).amax() < 1e-11);
+                let share = missing.equilibrium.amax() / equilibrium.amax();
+                assert!((found.of_tau - share * before).abs() < 1e-11, "{} {}", found.of_tau, share * before);
+                missing = found;
+            }
+            // The point on the way misses a thousandth.
+            let stop = Stop { tolerance: 1e-8, greatest: 1e8, steps: 30 };
+            let (mut at, mut midway) = (Iterate::middle(), None);
+            if program.iterate(&mut at, &stop, &mut midway).0 == Ending::Solved {
+                solved += 1;
+                let midway = midway.unwrap();
+                let off = program.missing(&midway).off(midway.tau);
+                assert!(off > 0.5e-3 && off < 1.5e-3, "{off}");
+            }
+        }
+        assert!(solved > 10, "{solved}");
     }
 }

@@ -154,7 +154,7 @@ fn steps_that_were_lost_are_counted() {
     for _ in 0..400 {
         let grasp = Grasp::new(places::<4>(&mut rng, 4).map(|p| p.map(|p| p.contact::<f64>())));
         let limits = [FingerLimits::<f64, 0>::none(); 4];
-        let precision = Precision { tolerance: 1e-8, steps: 9 };
+        let precision = Precision { tolerance: 1e-8, steps: 6 };
         let load = |rng: &mut Pcg64Mcg| Wrench::from_force_at(&grasp.centre(), vector(rng).normalize());
         let (first, second) = (load(&mut rng), load(&mut rng));
         let mut least = LeastGrip::with_precision(precision);
