@@ -285,7 +285,7 @@ fn nearest_gram(full: &DMatrix<f64>, residual: &DMatrix<f64>, k: usize) -> Resul
 
 #[cfg(test)]
 mod tests {
-    use super::gauss_helmert;
+    use super::{Errors, Sums, gauss_helmert};
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use crate::fit::{least_squares, total_least_squares};
     use crate::testing::Largest as _;
@@ -334,5 +334,20 @@ mod tests {
         let deviations = DMatrix::from_fn(20, 6, |i, j| 0.01 * (1 + i + j) as f64);
         let fit = gauss_helmert(&design, &(&design * &truth), &deviations, &deviations).unwrap();
         assert!((fit.coefficients - truth).largest() < 1e-12);
+    }
+
+    /// One load and one reading: an adjusted load has the variance of the weighted mean of the load and of what the reading says
+    /// of it, `σ_x²σ_y²/(σ_y² + θ²σ_x²)`.
+    #[test]
+    fn the_noise_of_an_adjusted_load_is_that_of_a_weighted_mean() {
+        let one = |value: f64| DMatrix::from_element(1, 1, value);
+        let (theta, of_load, of_reading) = (3.0, 0.04, 0.25);
+        let errors = |_| Errors { loads: one(of_load), mixed: one(0.0), readings: one(of_reading) };
+        let sums = Sums::new(&one(2.0), &one(7.0), &one(theta), errors).unwrap();
+        let residual = of_reading + theta * theta * of_load;
+        assert!((sums.covariance[(0, 0)] / residual - 1.0).abs() < 1e-12, "{}", sums.covariance);
+        let expected = of_load * of_reading / residual / residual;
+        assert!((sums.noise[(0, 0)] / expected - 1.0).abs() < 1e-12, "{}", sums.noise);
+        assert!((sums.misfit * residual - 1.0).abs() < 1e-12, "{}", sums.misfit);
     }
 }

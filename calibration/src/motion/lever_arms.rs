@@ -265,10 +265,8 @@ fn refine(map: &mut DMatrix<f64>, annihilator: &DMatrix<f64>) -> f64 {
         // The damped step: small and well conditioned by the damping, so its normal equations do no harm.
         let gradient = jacobian.transpose() * DVector::from_column_slice(residual.as_slice());
         let mut normal = jacobian.transpose() * &jacobian;
-        let scale = normal.diagonal().max();
-        for i in 0..3 * count {
-            normal[(i, i)] += damping * scale;
-        }
+        let diagonal = normal.diagonal();
+        normal.set_diagonal(&diagonal.add_scalar(damping * diagonal.max()));
         let Some(factor) = normal.cholesky() else { break };
         let step = factor.solve(&-gradient);
         let mut trial = map.clone();

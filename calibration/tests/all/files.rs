@@ -115,3 +115,15 @@ fn sites_that_see_not_all_loads_are_refused() {
     candidates[3][2] = f64::NAN;
     assert!(choose_sites(&candidates, 6, &Criterion::Trace, &loads).is_err());
 }
+
+/// The fields are public: a zero that was taken away makes an error of every load, and no panic.
+#[test]
+fn a_calibration_without_its_zero_reads_nothing() {
+    let mut file =
+        CalibrationFile::new(DMatrix::identity(6, 6), vec![1.0; 6], vec![0.0; 6], SignalUnit::Volt).unwrap();
+    assert!(file.load(&[0.1; 6]).is_ok());
+    for short in [5, 0] {
+        file.zero.truncate(short);
+        assert!(matches!(file.load(&[0.1; 6]), Err(FileError::Singular)), "{short} zeros");
+    }
+}
