@@ -79,17 +79,12 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         if any { Search::Incomplete } else { search }
     }
 
-    /// Only where the spin torque is not more than the force has at a lever of the size of the place: turning the wrench mixes
-    /// what rounding does to one torque into the others. In a narrower type only of a force that presses a little more
-    /// steeply than the shape asks for, too.
+    /// In a narrower type only of a force that presses a little more steeply than the shape asks for: moving the wrench
+    /// rounds it.
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         let pose = self.sensor_from_shape();
         let found = self.inner().sole_soft_contact(&push.seen_from(pose))?;
-        let lever = found.point.norm_squared() + pose.origin().norm_squared();
-        if !(found.spin_torque * found.spin_torque <= push.squared() * lever) {
-            return None;
-        }
         let normal = pose.rotate(&found.normal);
         let pressing = push.force().dot(&normal);
         if is_asked_again::<T>() && !(pressing * pressing >= T::literal(STEEPER) * push.squared()) {

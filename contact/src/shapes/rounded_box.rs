@@ -63,7 +63,9 @@ fn steeply_on_rounded_box<T: Real>(shape: &RoundedBox<T>, push: &ForceLine<T>) -
     None
 }
 
-/// On the plane through a point with a normal: `docs/theory/contact.md#central-quadrics`.
+/// On the plane through a point with a normal: `docs/theory/contact.md#central-quadrics`. `None` where the force presses
+/// at a flat angle, and where the spin torque is more than the force has at a lever as long as the place is far: a plane
+/// answers to what rounding of the wrench makes of it in the other torques, and a pose that turns the wrench rounds it.
 #[inline(always)]
 fn on_face<T: Real>(origin: &Vector3<T>, normal: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
     let force = push.force();
@@ -74,7 +76,8 @@ fn on_face<T: Real>(origin: &Vector3<T>, normal: &Vector3<T>, push: &ForceLine<T
     let share = T::one() / pressing;
     let point = origin + push.torque_about(origin).cross(normal) * share;
     let spin_torque = -force.dot(&push.torque()) * share;
-    Some(SoftContact { point, normal: *normal, spin_torque, active: true })
+    let is_steady = spin_torque * spin_torque <= push.squared() * point.norm_squared();
+    is_steady.then_some(SoftContact { point, normal: *normal, spin_torque, active: true })
 }
 
 /// The contact by the closed forms of all faces, edges and corners: that of which the place is on its own part, or by rounding

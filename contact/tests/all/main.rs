@@ -11,6 +11,8 @@ mod convex_bound;
 mod covariance;
 mod entries;
 mod extremes;
+#[cfg(feature = "mixed-precision")]
+mod flat_angles;
 mod fusion;
 mod grazing;
 mod point_contact;

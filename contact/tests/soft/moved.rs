@@ -151,3 +151,29 @@ fn a_pose_of_a_pose_is_one_pose() {
         assert!((one - other).norm() < 1e-11, "{wrench:?} {one} {other}");
     }
 }
+
+/// On a face of a posed box, however large the spin torque, is the contact of the posed plane of that face, which is known to
+/// the last digit: turning a wrench rounds it, and a face answers to that by as much as the spin torque is large.
+#[test]
+fn faces_of_posed_boxes_are_as_exact_as_planes() {
+    let (model, mut random) = (SoftFinger::new(0.0).unwrap().without_friction_limit(), Random::new(173));
+    let (body, mut ruled) = (Posed::new(common::rounded_box::<f64>(), pose()), 0);
+    let (half, rounding) = (body.inner().half_extents(), body.inner().rounding());
+    for round in 0..3000 {
+        let mut normal = Vector3::zeros();
+        normal[round % 3] = random.sign();
+        let place = half.zip_map(&normal, |half, n: f64| {
+            if n == 0.0 { (half - rounding) * random.uniform(-0.9, 0.9) } else { half * n }
+        });
+        let plane = Posed::new(Plane::new(place.component_mul(&normal.abs()), normal).unwrap(), pose());
+        let (point, outward) = (pose().transform_point(&place), pose().rotate(&normal));
+        let force = random.force(&outward, 0.35, 1.0);
+        let spin = random.sign() * random.log_uniform(1e-6, 100.0);
+        let wrench = Wrench::on_fingertip(force, point.cross(&force) + outward * spin);
+        let [found, exact] = [model.resolve(&wrench, &body), model.resolve(&wrench, &plane)]
+            .map(|found| found.into_result().unwrap());
+        assert!((found.point - exact.point).norm() < 2e-17, "{found:?} {exact:?} {wrench:?}");
+        ruled += usize::from(spin.abs() > 0.1);
+    }
+    assert!(ruled > 500, "{ruled}");
+}

@@ -1,6 +1,6 @@
 //! All solutions on a surface that is not convex.
 
-use fingertip_contact::{Search, SoftContact, SoftFingerSurface};
+use fingertip_contact::{ContactModel, Search, SoftContact, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{ActiveSurface, SmoothSurface, Torus};
 use fingertip_wrench::Wrench;
 use nalgebra::Vector3;
@@ -256,5 +256,40 @@ fn slim_and_stout_rings_lose_no_contact() {
             assert!(nearest < 1e-5, "{tube} {nearest:e} {case:?} {found:?}");
             assert!(found.len() % 2 == 0, "{tube} {case:?} {found:?}");
         }
+    }
+}
+
+/// In single precision, with and without a trace of torque along the force that its numbers do not tell: a line that passes by
+/// less than they are rounded to has its contact there, one that passes farther has none. (Each of the first two was denied.)
+#[test]
+#[cfg(feature = "mixed-precision")]
+fn lines_that_graze_but_for_rounding_touch() {
+    let model = SoftFinger::new(0.0_f32).unwrap().without_friction_limit();
+    for (radii, force, torque, place) in [
+        (
+            [0.204_865_43_f32, 0.094_350_114],
+            [3.675_158_8e-10_f32, 7.383_777_5e-10, 1.257_087_1e-9],
+            [3.860_75e-10_f32, 6.357_070_4e-11, -1.502_109_5e-10],
+            [-0.062_956_371, 0.281_941_217, -0.042_926_804],
+        ),
+        (
+            [2.935_990_8e-5, 1.954_351_5e-6],
+            [-114_351_374_000.0, -86_063_170_000.0, 71_321_120_000.0],
+            [637_985.25, -2_300_552.5, -1_753_174.1],
+            [2.950_636_8e-5, 6.875_628_9e-6, 1.715_109_4e-6],
+        ),
+    ] {
+        let torus = Torus::new(radii[0], radii[1]).unwrap();
+        let wrench = Wrench::on_fingertip(Vector3::from(force), Vector3::from(torque));
+        let found = model.resolve(&wrench, &torus);
+        let contact = found.contact().unwrap_or_else(|| panic!("{wrench:?} {found:?}"));
+        let size = f64::from(radii[0] + radii[1]);
+        // Of a line that grazes a place is known to the root of what its numbers are.
+        assert!((contact.point.cast::<f64>() - Vector3::from(place)).norm() < 3e-4 * size, "{contact:?}");
+        // The same, past the torus by a hundred thousandth of its size.
+        let aside = contact.normal.cross(&wrench.force()) * (-1e-5 * radii[0]);
+        let past = Wrench::on_fingertip(wrench.force(), wrench.torque() - aside);
+        let found = model.resolve(&past, &torus);
+        assert!(found.contact().is_none(), "{past:?} {found:?}");
     }
 }

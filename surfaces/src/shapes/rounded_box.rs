@@ -7,6 +7,7 @@ use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
 use crate::numeric::twofold::{Twofold, outside_ball};
 use crate::numeric::vectors::{foot, length, unit_or, wide};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -155,6 +156,11 @@ impl<T: Real> Shortcuts<T> for RoundedBox<T> {
         let line = push.line();
         let t = self.entry(&line.point, &line.direction)?;
         Some(Entry::at(&self.crossing(&line.point, &line.direction, t, t), &line.direction))
+    }
+
+    /// An edge is bent sharply one way, and where a line passes over a seam its digits decide of which part the entry is.
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 
     /// From the nearest point of the sharp box within: a plane's, a cylinder's or a ball's distance.

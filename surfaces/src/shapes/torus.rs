@@ -7,6 +7,7 @@ use super::ring::RingLine;
 use crate::numeric::closest::from_distance;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
+use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, Shortcuts, SignedDistance,
     SmoothSurface, Topology,
@@ -133,6 +134,11 @@ impl<T: Real> ActiveSurface<T> for Torus<T> {
 }
 
 impl<T: Real> Shortcuts<T> for Torus<T> {
+    /// A thin tube is bent sharply one way.
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
+    }
+
     /// The distance from the ring less the radius of the tube, in units of the ring's.
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         let unit = self.ring_radius.normalising_factor();

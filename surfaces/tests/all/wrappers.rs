@@ -42,9 +42,41 @@ fn check_named<T: Real, S: ActiveSurface<T> + Into<DynSurface<T>> + Clone>(laws:
     }
 }
 
+/// A shape that does not tell where a line enters in double precision, as its offset, which is another surface, cannot.
+struct InItsPrecision<S>(S);
+
+impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for InItsPrecision<S> {
+    fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
+        self.0.crossings(line, visit);
+    }
+
+    fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
+        self.0.closest_approach(line)
+    }
+
+    fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
+        self.0.normal(point)
+    }
+
+    fn contains(&self, point: &Vector3<T>) -> bool {
+        self.0.contains(point)
+    }
+
+    fn shortcuts(&self) -> impl Shortcuts<T> {
+        self
+    }
+}
+
+impl<T: Real, S: ActiveSurface<T>> Shortcuts<T> for InItsPrecision<S> {
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        self.0.shortcuts().surface_residual(point)
+    }
+}
+
 fn check_offset<T: Real, S: SignedDistance<T> + Copy>(laws: SurfaceLaws<T>, shape: S) {
-    let none = Offset::new(shape, T::zero());
-    laws.with_roundings(T::literal(256.0)).check_wrapper(&shape, &none.unwrap(), Kept::Residual).unwrap();
+    let none = Offset::new(shape, T::zero()).unwrap();
+    let laws = laws.with_roundings(T::literal(256.0));
+    laws.check_wrapper(&InItsPrecision(shape), &none, Kept::Residual).unwrap();
 }
 
 /// Every shape, in every wrapper.

@@ -175,8 +175,40 @@ fn in_double<T: Real>(
     visit: &mut dyn FnMut(SoftContact<T>),
 ) -> Search<T> {
     let Some(double) = torus.in_double() else { return Search::Incomplete };
-    let epsilon = T::EPSILON.to_f64();
-    in_type(search(&double, &widened(wrench), epsilon, &mut |contact| visit(narrow(&contact))))
+    let (wrench, epsilon) = (widened(wrench), T::EPSILON.to_f64());
+    let mut any = false;
+    let ended = search(&double, &wrench, epsilon, &mut |contact| {
+        any = true;
+        visit(narrow(&contact));
+    });
+    if any || !is_pure_force_of(&wrench.force(), &wrench.torque(), epsilon) {
+        return in_type(ended);
+    }
+    in_type(grazing(&double, &wrench, epsilon, &mut |contact| visit(narrow(&contact))))
+}
+
+/// The contacts of a pure force whose line misses by no more than rounding of its numbers, to so much of them: those that the
+/// numbers have by all their digits, next to where the line is closest. Elsewhere a pure force has none.
+fn grazing(
+    torus: &Torus<f64>,
+    wrench: &Wrench<f64>,
+    epsilon: f64,
+    visit: &mut dyn FnMut(SoftContact<f64>),
+) -> Search<f64> {
+    let Ok(axis) = wrench.line_of_action() else { return Search::Complete };
+    let Some(closest) = torus.closest_approach(&axis.line) else { return Search::Complete };
+    let size = torus.ring_radius() + torus.tube_radius();
+    let hair = 32.0 * epsilon;
+    if !(closest.gap <= hair * size) {
+        return Search::Complete;
+    }
+    // A line that is so near passes as far along a round surface as the root of that.
+    let near = size * hair.sqrt() * 2.0;
+    search(torus, wrench, f64::EPSILON, &mut |contact| {
+        if (contact.point - closest.point).norm() <= near {
+            visit(contact);
+        }
+    })
 }
 
 /// Whether `τ²κ + (f·n)²` is nearly nothing for the size of its parts.
