@@ -203,7 +203,7 @@ fn grazing(
         return Search::Complete;
     }
     // A line that is so near passes as far along a round surface as the root of that.
-    let near = size * hair.sqrt() * 2.0;
+    let near = size * hair.root() * 2.0;
     search(torus, wrench, f64::EPSILON, &mut |contact| {
         if (contact.point - closest.point).norm() <= near {
             visit(contact);
