@@ -41,8 +41,6 @@ STRETCH = 3e-5
 """Way over which the growth of the force is told [m]."""
 MISSING = 0.04
 """Share of the weight that the fingers lack when the object is said to slide away in the air."""
-PAUSE = 50
-"""Milliseconds before that is said again, in which it is caught."""
 
 
 class Grip:
@@ -73,7 +71,6 @@ class Grip:
         self.normal = [FIRST_TOUCH] * self.count
         self.load = np.zeros(6)
         self.gripping = False
-        self.silent = 0
 
     def step(self, data: mujoco.MjData, phase: str) -> Vector:
         """Where the drives of the fingers shall be [m]. The phase is what the script of the hand is about to do."""
@@ -83,8 +80,8 @@ class Grip:
         elif not self.gripping:
             self._close()
         else:
-            self._slip(data, phase)
-            self.normal, _, implausible = self.control.command(self.fingers, PERIOD)
+            load = self._slip(data, phase)
+            self.normal, _, implausible = self.control.command(self.fingers, PERIOD, load=load)
             self._squeeze(implausible)
         return self.ways
 
@@ -124,8 +121,9 @@ class Grip:
         self.ways = self.ways + np.where(touching, 0.0, CLOSING * PERIOD)
         self.gripping = all(touching)
 
-    def _slip(self, data: mujoco.MjData, phase: str) -> None:
-        """What each finger is told of slip."""
+    def _slip(self, data: mujoco.MjData, phase: str) -> Vector | None:
+        """What each finger is told of slip. The load, where the fingers do not feel all of it."""
+        load = None
         self.verdicts = [SlipVerdict.HOLDING] * self.count
         if phase == "feel" and self.friction is None:
             height = np.array([0.0, 0.0, data.joint("height").qpos[0]])
@@ -133,25 +131,28 @@ class Grip:
                 if isinstance(finger, dict):
                     self.verdicts[i] = watch.update(finger["normal"], finger["tangential"], height)
         elif phase in ("weigh", "hold", "pour"):
-            self._fall(phase)
+            load = self._fall(phase)
         for finger, verdict in zip(self.fingers, self.verdicts, strict=True):
             if isinstance(finger, dict):
                 finger["slip"] = verdict
+        return load
 
-    def _fall(self, phase: str) -> None:
-        """What falls is not borne: in the air, too little weight is slip."""
+    def _fall(self, phase: str) -> Vector | None:
+        """What falls is not borne: in the air, too little weight is slip. A finger that slides feels no more of it than
+        friction lets through; what is to be held is the whole weight."""
         if phase == "weigh":
             # Torques are about the middle of the hand, half a decimetre from the sensors.
             variances = [FORCE_NOISE**2] * 3 + [TORQUE_NOISE**2 + (0.05 * FORCE_NOISE) ** 2] * 3
             self.weight.observe(self.load, self.count * np.diag(variances), KILOGRAM * self.down)
-            return
-        estimate, self.silent = self.weight.estimate(), max(0, self.silent - 1)
-        if estimate is None or self.silent:
-            return
+            return None
+        estimate = self.weight.estimate()
+        if estimate is None:
+            return None
         weight = estimate[0] * KILOGRAM
         if weight - self.borne > max(MISSING * weight, 6 * np.sqrt(self.count) * FORCE_NOISE):
             self.verdicts = [SlipVerdict.SLIPPING] * self.count
-            self.silent = PAUSE
+            return self.load * (weight / self.borne) if self.borne > 0.2 * weight else None
+        return None
 
     def _squeeze(self, implausible: list[bool]) -> None:
         """Each drive moves by what its finger lacks, as far as that squeezes and does not push the object about."""

@@ -21,12 +21,14 @@ from fingertip import SlipVerdict
 from grip import PERIOD, Grip
 from oracle import Oracle
 from script import IN_AIR, Script
-from world import Lift, draw, model
+from world import Lift, Vector, draw, model
 
 EVERY = 5
 """Milliseconds between two looks at the least grip."""
 DROPPED = 0.02
 """An object that moves so far in the hand is dropped [m]."""
+ALONE = 20
+"""Milliseconds that no finger touches a dropped object. MuJoCo misses the contact of two ellipsoids now and then."""
 LONGEST = 12.0
 """A lift that is not over by then never will be [s]."""
 
@@ -84,7 +86,8 @@ class Watch:
         self.ratios: list[float] = []
         self.sliding: float | None = None
         self.wetted: float | None = None
-        self.place = None
+        self.place: Vector | None = None
+        self.alone = 0
 
     def see(self, data: mujoco.MjData, tick: int) -> None:
         """The state after a millisecond."""
@@ -124,7 +127,8 @@ class Watch:
         self.place = place if self.place is None else self.place
         self.story.slid = max(self.story.slid, float(np.linalg.norm(place - self.place)))
         touching = any(contact is not None for contact in self.oracle.contacts(data))
-        self.story.dropped |= self.story.slid > DROPPED or not touching
+        self.alone = 0 if touching else self.alone + 1
+        self.story.dropped |= self.story.slid > DROPPED or self.alone > ALONE
 
     def _look(self, data: mujoco.MjData) -> None:
         contacts = self.oracle.contacts(data)
@@ -168,7 +172,8 @@ def told(number: int, story: Story) -> str:
     end = "not to be held" if not story.holdable else "DROPPED" if story.dropped else "fell over" * (not story.stands)
     return (
         f"{number:4} {lift.shape:9} by {len(lift.tips)}, {lift.mass * 1e3:3.0f} g ({story.mass * 1e3:5.1f} felt), "
-        f"friction {lift.friction:.2f} ({story.friction:.2f} learnt), grip {story.grip:.2f} (at most {story.worst:.2f}) of the least, "
+        f"friction {lift.friction:.2f} ({story.friction:.2f} learnt), "
+        f"grip {story.grip:.2f} (at most {story.worst:.2f}) of the least, "
         f"slip after {story.way * 1e3:.2f} mm, slid {story.slid * 1e3:.2f} mm {end}"
     )
 

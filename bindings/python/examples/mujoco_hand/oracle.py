@@ -72,6 +72,7 @@ class Oracle:
 
     def holdable(self, data: mujoco.MjData, contacts: list[dict[str, Any] | None]) -> bool:
         """Whether a controller that knows all could lift, fill and turn this, where the fingers touch it now."""
+        contacts = [contact and {**contact, "friction": contact["friction"] * self.lift.wetted} for contact in contacts]
         weight, turned = self.load(data, 0.0), []
         for angle in np.linspace(0.0, self.lift.turn, 5):
             rotation = np.zeros(9)
