@@ -81,7 +81,10 @@ class Grip:
             self._close()
         else:
             load = self._slip(data, phase)
-            self.normal, _, implausible = self.control.command(self.fingers, PERIOD, load=load)
+            implausible = [False] * self.count
+            # What the table does to an object that is put down need not be held.
+            if phase != "put":
+                self.normal, _, implausible = self.control.command(self.fingers, PERIOD, load=load)
             self._squeeze(implausible)
         return self.ways
 

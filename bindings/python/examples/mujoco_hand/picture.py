@@ -52,8 +52,8 @@ def _story(story: Story, axes: dict[str, Axes]) -> None:
             forces.text(row.time, 0.98, row.phase, transform=place, rotation=90, fontsize=7, va="top", color="gray")
         for name in ("forces", "used", "way"):
             axes[name].axvline(row.time, color="lightgray", lw=0.6, zorder=0)
-    forces.set_ylim(top=1.3 * forces.get_ylim()[1])
-    forces.legend(fontsize=8, loc="lower center", bbox_to_anchor=(0.45, 0.0))
+    forces.set_ylim(top=1.5 * forces.get_ylim()[1])
+    forces.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 0.88), ncols=4)
     axes["way"].legend(fontsize=8, loc="upper left")
 
 
@@ -70,6 +70,7 @@ def _all(stories: list[Story], axes: dict[str, Axes]) -> None:
     axes["grips"].set_xscale("log")
     axes["grips"].set_xticks([20, 50, 100, 200, 400], ["20", "50", "100", "200", "400"])
     axes["grips"].minorticks_off()
+    axes["grips"].set_xlim(18, 440)
     axes["grips"].set_xlabel("mass [g]")
     axes["grips"].set_ylabel("grip over the least that holds")
     axes["grips"].set_title(f"{len(stories)} lifts", fontsize=10)
