@@ -36,6 +36,8 @@ class Tip:
     """From its middle to its end, along the way of the finger [m]."""
     euler: tuple[float, float]
     """How it is turned in the finger, about x and y [rad]."""
+    width: float
+    """Half of it across the way of the finger, however it is turned [m]."""
 
 
 @dataclass(frozen=True)
@@ -74,14 +76,14 @@ def tip(random: np.random.Generator) -> Tip:
     kind = random.choice(["sphere", "ellipsoid", "capsule"])
     if kind == "sphere":
         radius = random.uniform(0.007, 0.013)
-        return Tip(f'type="sphere" size="{radius}"', {"shape": "sphere", "radius_m": radius}, radius, euler)
+        return Tip(f'type="sphere" size="{radius}"', {"shape": "sphere", "radius_m": radius}, radius, euler, radius)
     if kind == "ellipsoid":
         axes = random.uniform([0.007, 0.007, 0.008], [0.011, 0.011, 0.014])
         geom = 'type="ellipsoid" size="{} {} {}"'.format(*axes)
-        return Tip(geom, {"shape": "ellipsoid", "semi_axes_m": axes.tolist()}, axes[2], euler)
+        return Tip(geom, {"shape": "ellipsoid", "semi_axes_m": axes.tolist()}, axes[2], euler, max(axes))
     radius, half = random.uniform(0.006, 0.010), random.uniform(0.004, 0.010)
     shape = {"shape": "capsule", "axis": [0.0, 0.0, 1.0], "radius_m": radius, "half_length_m": half}
-    return Tip(f'type="capsule" size="{radius} {half}"', shape, radius + half, euler)
+    return Tip(f'type="capsule" size="{radius} {half}"', shape, radius + half, euler, radius + 0.3 * half)
 
 
 def draw(random: np.random.Generator, fingers: int | None = None) -> Lift:
@@ -101,8 +103,14 @@ def draw(random: np.random.Generator, fingers: int | None = None) -> Lift:
     else:
         places = [(angle + random.uniform(-0.1, 0.1), 0.0) for angle in (0.0, 2 * np.pi / 3, 4 * np.pi / 3)]
     around = random.uniform(0, 2 * np.pi)
+    tips = [tip(random) for _ in range(count)]
+    if count == 3 and shape == "box":
+        # Two fingers side by side have room for both.
+        aside = max(aside, 0.5 * (tips[1].width + tips[2].width) + 1e-3)
+        size[1] = max(size[1], aside + 3e-3)
+        places[1:] = [(np.pi, aside), (np.pi, -aside)]
     return Lift(
-        tips=[tip(random) for _ in range(count)],
+        tips=tips,
         shape=shape,
         size=size,
         mass=float(np.exp(random.uniform(np.log(0.02), np.log(0.4)))),
