@@ -196,20 +196,22 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     /// What the target asks for, with `keep` of the residuals to go: takes it off a wrench, and returns it of τ.
     #[inline]
     pub(crate) fn ask(&mut self, keep: T, right: &mut Vector6<T>) -> T {
-        let mut x = self.target;
-        for reflection in self.reflections.iter().take(Self::present(self.used)) {
-            reflect(reflection, &mut x);
-        }
-        x -= self.missing * keep;
+        let mut x = self.turned(&self.target) - self.missing * keep;
         let mut of_tau = self.missing_of_tau * keep;
-        for row in self.rows.iter().take(Self::present(self.used)) {
-            let share = row.target * row.inverse_slack;
-            x -= row.normal * share;
-            of_tau += row.bound * share;
-        }
+        self.ask_of_rows(&self.rows.map(|row| row.target), &mut x, &mut of_tau);
         self.x = x;
         subtract(&self.mapped, &self.x, right);
         of_tau
+    }
+
+    /// Takes off `x` what targets of the half-spaces ask for, and adds it to what is asked of τ.
+    #[inline]
+    fn ask_of_rows(&self, targets: &[T; ROWS], x: &mut Vector4<T>, of_tau: &mut T) {
+        for (row, target) in self.rows.iter().zip(targets).take(Self::present(self.used)) {
+            let share = *target * row.inverse_slack;
+            *x -= row.normal * share;
+            *of_tau += row.bound * share;
+        }
     }
 
     /// The corrector's target again, now that it is known better where it goes: takes what that asks for besides off a
@@ -217,18 +219,14 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     #[inline]
     pub(crate) fn correct_again(&mut self, centre: T, right: &mut Vector6<T>) -> T {
         let before = self.target;
-        let rows_before = self.rows.map(|row| row.target);
+        let mut of_rows = self.rows.map(|row| row.target);
         self.correct(centre);
-        let mut more = self.target - before;
-        for reflection in self.reflections.iter().take(Self::present(self.used)) {
-            reflect(reflection, &mut more);
+        for (more, row) in of_rows.iter_mut().zip(&self.rows) {
+            *more = row.target - *more;
         }
+        let mut more = self.turned(&(self.target - before));
         let mut of_tau = T::zero();
-        for (row, before) in self.rows.iter().zip(&rows_before).take(Self::present(self.used)) {
-            let share = (row.target - *before) * row.inverse_slack;
-            more -= row.normal * share;
-            of_tau += row.bound * share;
-        }
+        self.ask_of_rows(&of_rows, &mut more, &mut of_tau);
         self.more = more;
         subtract(&self.mapped, &self.more, right);
         of_tau
@@ -259,6 +257,16 @@ impl<T: Real, const ROWS: usize> Scaled<T, ROWS> {
     #[inline]
     pub(crate) fn take_wrench(&self, left: &mut Vector6<T>) {
         subtract(&self.mapped, &self.x, left);
+    }
+
+    /// `Pᵀ v`.
+    #[inline]
+    fn turned(&self, v: &Vector4<T>) -> Vector4<T> {
+        let mut x = *v;
+        for reflection in self.reflections.iter().take(Self::present(self.used)) {
+            reflect(reflection, &mut x);
+        }
+        x
     }
 
     /// `P x`: `W⁻¹` of the forces `F x`.
