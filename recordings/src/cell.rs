@@ -17,10 +17,10 @@ pub(super) enum Cell {
 impl Cell {
     #[inline]
     pub(super) fn read(record: &Record, used: UsedColumn) -> Self {
-        let plain = record.cell(used.column).and_then(|(cell, window)| read_plain(cell, window));
-        match plain {
+        let Some((cell, window)) = record.cell(used.column) else { return Self::Empty };
+        match read_plain(cell, window) {
             Some(number) => Self::finite(number * used.scale),
-            None => Self::read_whole(record.get(used.column).unwrap_or_default(), used.scale),
+            None => Self::read_whole(cell, used.scale),
         }
     }
 

@@ -6,7 +6,7 @@ pub(super) const WINDOW: usize = 8;
 const DIGITS: usize = 15;
 const POWERS: [f64; WINDOW + 1] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8];
 /// A one in every byte.
-const ONES: u64 = u64::MAX / 0xff;
+pub(super) const ONES: u64 = u64::MAX / 0xff;
 
 /// Reads a number of at most 15 digits, of which at most eight stand behind a point, with or without a minus, as the nearest
 /// double; `None` for all else, which a whole parser may still know. The window holds the last bytes of the text, with

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use csv_core::ReadRecordResult;
 
 use crate::bounded::Bounded;
-use crate::plain::WINDOW;
+use crate::plain::{ONES, WINDOW};
 
 /// Bytes that are read at a time.
 const BUFFER: usize = 1 << 16;
@@ -81,7 +81,6 @@ impl Record {
 /// longer to begin than to end.
 #[inline]
 fn push_places(byte: u8, text: &[u8], places: &mut Vec<usize>) {
-    const ONES: u64 = u64::MAX / 0xff;
     let sought = ONES * u64::from(byte);
     let (pieces, rest) = text.as_chunks::<8>();
     for (number, piece) in pieces.iter().enumerate() {
