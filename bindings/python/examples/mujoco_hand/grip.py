@@ -7,16 +7,14 @@ fingers press lightly, the hand moves up, and where the force stops to grow with
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import fingertip.mujoco
 import mujoco
 import numpy as np
-import numpy.typing as npt
 from fingertip import Grasp, HandController, IncipientSlip, ObjectWeight, Scene, SlipVerdict
-from world import ARM, FINGER_STIFFNESS, KILOGRAM, Tip
-
-Vector = npt.NDArray[np.float64]
+from world import ARM, FINGER_STIFFNESS, KILOGRAM, Tip, Vector
 
 PERIOD = 1e-3
 FORCE_NOISE, TORQUE_NOISE = 2e-3, 15e-6
@@ -41,6 +39,12 @@ STRETCH = 3e-5
 """Way over which the growth of the force is told [m]."""
 MISSING = 0.04
 """Share of the weight that the fingers lack when the object is said to slide away in the air."""
+
+
+def grasp_of(contacts: Iterable[dict[str, Any]]) -> Grasp:
+    """The grasp of contacts that have more than it takes."""
+    keys = ("point", "outward", "friction", "arm")
+    return Grasp([{key: contact[key] for key in keys} for contact in contacts])
 
 
 class Grip:
@@ -164,10 +168,8 @@ class Grip:
         }
         ways = self.ways.copy()
         if len(believed) >= 2:
-            keys = ("point", "outward", "friction", "arm")
-            grasp = Grasp([{key: contact[key] for key in keys} for contact in believed.values()])
             lacks = [(self.normal[i] - contact["normal"], [0.0, 0.0, 0.0], 0.0) for i, contact in believed.items()]
-            _, internal = grasp.split(lacks)
+            _, internal = grasp_of(believed.values()).split(lacks)
             for i, (lack, *_) in zip(believed, internal, strict=True):
                 ways[i] += BANDWIDTH / FINGER_STIFFNESS * lack * PERIOD
         for i, finger in enumerate(self.fingers):

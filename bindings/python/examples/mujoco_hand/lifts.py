@@ -19,7 +19,7 @@ import mujoco
 import numpy as np
 from fingertip import SlipVerdict
 from grip import PERIOD, Grip
-from oracle import Oracle
+from oracle import Contacts, Oracle
 from script import IN_AIR, Script
 from world import Lift, Vector, draw, model
 
@@ -92,12 +92,13 @@ class Watch:
     def see(self, data: mujoco.MjData, tick: int) -> None:
         """The state after a millisecond."""
         phase, story = self.script.phase, self.story
+        contacts = self.oracle.contacts(data)
         begins, self.phase = phase != self.phase, phase
         slips = SlipVerdict.SLIPPING in self.grip.verdicts
         if slips and (not story.slips or data.time - story.slips[-1] > 0.02):
             story.slips.append(data.time)
         if begins and phase == "feel":
-            story.holdable = self.oracle.holdable(data, self.oracle.contacts(data))
+            story.holdable = self.oracle.holdable(data, contacts)
         if begins and phase == "lift":
             story.friction = np.nan if self.grip.friction is None else self.grip.friction
         if begins and phase == "hold":
@@ -107,31 +108,30 @@ class Watch:
         if self.wetted is not None and slips and np.isnan(story.answered):
             story.answered = data.time - self.wetted
         if phase == "feel" and np.isnan(story.way):
-            self._feel(data, slips)
+            self._feel(contacts, slips)
         if phase in IN_AIR:
-            self._air(data)
+            self._air(data, contacts)
         if tick % EVERY == 0:
-            self._look(data)
+            self._look(data, contacts)
 
-    def _feel(self, data: mujoco.MjData, slips: bool) -> None:
+    def _feel(self, contacts: Contacts, slips: bool) -> None:
         if self.sliding is None:
-            if any(contact and contact["used"] > 0.995 for contact in self.oracle.contacts(data)):
+            if any(contact and contact["used"] > 0.995 for contact in contacts):
                 self.sliding = self.script.height
         elif slips:
             self.story.way = self.script.height - self.sliding
 
-    def _air(self, data: mujoco.MjData) -> None:
+    def _air(self, data: mujoco.MjData, contacts: Contacts) -> None:
         turn = data.xmat[self.oracle.hand].reshape(3, 3)
         tips = np.mean([data.geom_xpos[tip] for tip in self.oracle.tips], axis=0)
         place = turn.T @ (data.xpos[self.oracle.object] - tips)
         self.place = place if self.place is None else self.place
         self.story.slid = max(self.story.slid, float(np.linalg.norm(place - self.place)))
-        touching = any(contact is not None for contact in self.oracle.contacts(data))
+        touching = any(contact is not None for contact in contacts)
         self.alone = 0 if touching else self.alone + 1
         self.story.dropped |= self.story.slid > DROPPED or self.alone > ALONE
 
-    def _look(self, data: mujoco.MjData) -> None:
-        contacts = self.oracle.contacts(data)
+    def _look(self, data: mujoco.MjData, contacts: Contacts) -> None:
         least = self.oracle.least(contacts, self.oracle.load(data, self.script.poured), None)
         pressed = sum(contact["normal"] for contact in contacts if contact)
         if self.phase in IN_AIR and least is not None:

@@ -6,12 +6,12 @@ from typing import Any
 
 import mujoco
 import numpy as np
-import numpy.typing as npt
-from fingertip import Grasp, HandError
-from grip import GREATEST, LEAST
-from world import ARM, KILOGRAM, Lift
+from fingertip import HandError
+from grip import GREATEST, LEAST, grasp_of
+from world import ARM, KILOGRAM, Lift, Vector
 
-Vector = npt.NDArray[np.float64]
+Contacts = list[dict[str, Any] | None]
+"""Of each fingertip its contact with the object."""
 
 
 class Oracle:
@@ -23,10 +23,10 @@ class Oracle:
         self.tips = [model.geom(f"tip{i}").id for i in range(len(lift.tips))]
         self.held = model.geom("object").id
 
-    def contacts(self, data: mujoco.MjData) -> list[dict[str, Any] | None]:
+    def contacts(self, data: mujoco.MjData) -> Contacts:
         """Of each fingertip its contact with the object, in the frame of the hand, as a `Grasp` takes it, with the
         normal force [N] and the share of the friction that is used."""
-        found: list[dict[str, Any] | None] = [None] * len(self.tips)
+        found: Contacts = [None] * len(self.tips)
         turn, origin = data.xmat[self.hand].reshape(3, 3), data.xpos[self.hand]
         for index in range(data.ncon):
             contact = data.contact[index]
@@ -55,22 +55,25 @@ class Oracle:
     def load(self, data: mujoco.MjData, poured: float) -> Vector:
         """Weight of the object and of what was poured in, and what the hand's acceleration adds, about the origin of
         the hand."""
-        turn, origin = data.xmat[self.hand].reshape(3, 3), data.xpos[self.hand]
         up = self.lift.mass * (KILOGRAM + data.joint("height").qacc[0]) + poured
-        force = turn.T @ np.array([0.0, 0.0, -up])
+        turn = data.xmat[self.hand].reshape(3, 3)
+        return self._at_centre(data, turn.T @ np.array([0.0, 0.0, -up]))
+
+    def _at_centre(self, data: mujoco.MjData, force: Vector) -> Vector:
+        """The wrench of a force on the centre of mass, in the frame of the hand."""
+        turn, origin = data.xmat[self.hand].reshape(3, 3), data.xpos[self.hand]
         return np.concatenate([force, np.cross(turn.T @ (data.xipos[self.object] - origin), force)])
 
     @staticmethod
-    def least(contacts: list[dict[str, Any] | None], load: Vector, greatest: float | None = GREATEST) -> float | None:
+    def least(contacts: Contacts, load: Vector, greatest: float | None = GREATEST) -> float | None:
         """The least sum of normal forces that holds a load [N]; `None` where fingers with these limits cannot."""
-        keys = ("point", "outward", "friction", "arm")
         try:
-            grasp = Grasp([{key: contact[key] for key in keys} for contact in contacts if contact is not None])
+            grasp = grasp_of(contact for contact in contacts if contact is not None)
             return sum(normal for normal, *_ in grasp.least_grip(load, least=LEAST, greatest=greatest))
         except HandError:
             return None
 
-    def holdable(self, data: mujoco.MjData, contacts: list[dict[str, Any] | None]) -> bool:
+    def holdable(self, data: mujoco.MjData, contacts: Contacts) -> bool:
         """Whether a controller that knows all could lift, fill and turn this, where the fingers touch it now."""
         contacts = [contact and {**contact, "friction": contact["friction"] * self.lift.wetted} for contact in contacts]
         weight, turned = self.load(data, 0.0), []
@@ -80,6 +83,5 @@ class Oracle:
             mujoco.mju_axisAngle2Quat(quaternion, self.lift.axis, -angle)
             mujoco.mju_quat2Mat(rotation, quaternion)
             force = rotation.reshape(3, 3) @ weight[:3] * (1 + self.lift.poured)
-            centre = data.xmat[self.hand].reshape(3, 3).T @ (data.xipos[self.object] - data.xpos[self.hand])
-            turned.append(np.concatenate([force, np.cross(centre, force)]))
+            turned.append(self._at_centre(data, force))
         return None not in contacts and all(self.least(contacts, load) is not None for load in [weight, *turned])
