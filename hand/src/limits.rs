@@ -1,6 +1,6 @@
 //! What a finger can give.
 
-use fingertip_wrench::{Frame, Real};
+use fingertip_wrench::{ContactForce, Frame, Real};
 use nalgebra::{SMatrix, Vector4, Vector6};
 
 use crate::grip::Row;
@@ -145,6 +145,35 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
         }
         let needed = self.simple() + 2 * self.joints.iter().flatten().count();
         if needed > ROWS { Err(BadLimit::NoRoom { room: ROWS, needed }) } else { Ok(self) }
+    }
+
+    /// How many times `more` a finger that gives `force` can give beside it: zero if there is no room, the
+    /// greatest number if there is no end.
+    pub(crate) fn room<F: Frame>(
+        &self,
+        contact: &GraspContact<T, F>,
+        force: &ContactForce<T>,
+        more: &ContactForce<T>,
+    ) -> T {
+        let mut room = T::GREATEST;
+        let mut bound = |value: T, more: T, greatest: T| {
+            if more > T::zero() {
+                room = room.min(((greatest - value) / more).max(T::zero()));
+            }
+        };
+        if let Some(greatest) = self.greatest {
+            bound(force.normal, more.normal, greatest);
+        }
+        if let Some(least) = self.least {
+            bound(-force.normal, -more.normal, -least);
+        }
+        for (column, greatest) in self.joints.iter().flatten() {
+            let torque = |force| contact.wrench(force).components().dot(column);
+            let (value, more) = (torque(force), torque(more));
+            bound(value, more, *greatest);
+            bound(-value, -more, *greatest);
+        }
+        room
     }
 
     /// The half-spaces of `[f_n, f_t1/μ, f_t2/μ, τ/(μe)]`, forces in units of `1/per_newton`.
