@@ -45,7 +45,7 @@ pub enum HandState<T: Real, F: Frame = Hand> {
     /// before: pressing harder does not help.
     CannotHold(CannotHold<T, F>),
     /// A finger feels what cannot be, so that what it bears is not known, and no load was
-    /// [stated](HandLoad::Known): the commands are those of before.
+    /// [stated](crate::HandLoad::Known): the commands are those of before.
     Doubtful,
     /// A number is not finite, no plausible contact is left, or the program was not decided: the commands are those of
     /// before.
