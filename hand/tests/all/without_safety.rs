@@ -210,6 +210,23 @@ fn what_is_held_without_safety_is_forgotten_with_the_object() {
     assert_eq!(hand, new);
 }
 
+/// Either grip starts from the last one of its kind: to ask again changes what the next one starts from. What has its safety
+/// again is as if it had never lost it.
+#[test]
+fn each_grip_starts_from_the_last_of_its_kind() {
+    let settings = HandSettings { rise: 1e-300, fall: 1e-300, ..HandSettings::default() };
+    let after = |loads: &[f64]| {
+        let mut hand = HandController::new(settings, [limited(6.5); 2]).unwrap();
+        loads.iter().for_each(|load| _ = hand.command(&pinch(0.5), &down(*load), STEP));
+        hand
+    };
+    for load in [4.0, 5.2] {
+        assert_ne!(after(&[load, load]), after(&[load]), "{load}");
+    }
+    assert_eq!(after(&[5.2, 4.0]), after(&[4.0]));
+    assert_eq!(after(&[4.0, 5.2]), after(&[5.2]));
+}
+
 /// A joint that gives no more than the grip without safety needs is not asked for more.
 #[test]
 fn joints_give_no_more_than_they_can() {
