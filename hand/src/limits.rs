@@ -221,3 +221,33 @@ fn positive<T: Real>(value: T, parameter: &'static str) -> Result<T, BadLimit> {
         Err(BadLimit::BadNumber { parameter, requirement: "positive and finite" })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Hand;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn room_ends_at_each_limit() {
+        let contact = GraspContact::<f64, Hand>::soft(Vector3::zeros(), Vector3::x(), 0.5, 1e-3).unwrap();
+        let press = |newtons| ContactForce::new(newtons, Vector3::zeros(), 0.0);
+        let none = FingerLimits::<f64, 2>::none();
+        let simple = none.with_least_normal(0.5).unwrap().with_greatest_normal(3.0).unwrap();
+        for (force, more, expected) in
+            [(1.0, 0.5, 4.0), (1.0, -0.25, 2.0), (1.0, 0.0, f64::MAX), (4.0, 0.5, 0.0), (0.2, -1.0, 0.0)]
+        {
+            let found = simple.room(&contact, &press(force), &press(more));
+            assert!(found == expected, "{force} {more}: {found}");
+            assert!(none.room(&contact, &press(force), &press(more)) == f64::MAX);
+        }
+        // A drive along the normal of 2 N, either way.
+        for sign in [1.0, -1.0] {
+            let limits = none.with_joint(&Vector6::new(sign, 0.0, 0.0, 0.0, 0.0, 0.0), 2.0).unwrap();
+            for (more, expected) in [(0.5, 2.0), (-1.5, 2.0), (0.0, f64::MAX)] {
+                let found = limits.room(&contact, &press(1.0), &press(more));
+                assert!(found == expected, "{sign} {more}: {found}");
+            }
+        }
+    }
+}
