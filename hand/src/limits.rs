@@ -1,6 +1,6 @@
 //! What a finger can give.
 
-use fingertip_wrench::{Frame, Real};
+use fingertip_wrench::{ContactForce, Frame, Real};
 use nalgebra::{SMatrix, Vector4, Vector6};
 
 use crate::grip::Row;
@@ -147,6 +147,35 @@ impl<T: Real, const ROWS: usize> FingerLimits<T, ROWS> {
         if needed > ROWS { Err(BadLimit::NoRoom { room: ROWS, needed }) } else { Ok(self) }
     }
 
+    /// How many times `more` a finger that gives `force` can give beside it: zero if there is no room, the
+    /// greatest number if there is no end.
+    pub(crate) fn room<F: Frame>(
+        &self,
+        contact: &GraspContact<T, F>,
+        force: &ContactForce<T>,
+        more: &ContactForce<T>,
+    ) -> T {
+        let mut room = T::GREATEST;
+        let mut bound = |value: T, more: T, greatest: T| {
+            if more > T::zero() {
+                room = room.min(((greatest - value) / more).max(T::zero()));
+            }
+        };
+        if let Some(greatest) = self.greatest {
+            bound(force.normal, more.normal, greatest);
+        }
+        if let Some(least) = self.least {
+            bound(-force.normal, -more.normal, -least);
+        }
+        for (column, greatest) in self.joints.iter().flatten() {
+            let torque = |force| contact.wrench(force).components().dot(column);
+            let (value, more) = (torque(force), torque(more));
+            bound(value, more, *greatest);
+            bound(-value, -more, *greatest);
+        }
+        room
+    }
+
     /// The half-spaces of `[f_n, f_t1/μ, f_t2/μ, τ/(μe)]`, forces in units of `1/per_newton`.
     pub(crate) fn rows<F: Frame>(
         &self,
@@ -190,5 +219,35 @@ fn positive<T: Real>(value: T, parameter: &'static str) -> Result<T, BadLimit> {
         Ok(value)
     } else {
         Err(BadLimit::BadNumber { parameter, requirement: "positive and finite" })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Hand;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn room_ends_at_each_limit() {
+        let contact = GraspContact::<f64, Hand>::soft(Vector3::zeros(), Vector3::x(), 0.5, 1e-3).unwrap();
+        let press = |newtons| ContactForce::new(newtons, Vector3::zeros(), 0.0);
+        let none = FingerLimits::<f64, 2>::none();
+        let simple = none.with_least_normal(0.5).unwrap().with_greatest_normal(3.0).unwrap();
+        for (force, more, expected) in
+            [(1.0, 0.5, 4.0), (1.0, -0.25, 2.0), (1.0, 0.0, f64::MAX), (4.0, 0.5, 0.0), (0.2, -1.0, 0.0)]
+        {
+            let found = simple.room(&contact, &press(force), &press(more));
+            assert!(found == expected, "{force} {more}: {found}");
+            assert!(none.room(&contact, &press(force), &press(more)) == f64::MAX);
+        }
+        // A drive along the normal of 2 N, either way.
+        for sign in [1.0, -1.0] {
+            let limits = none.with_joint(&Vector6::new(sign, 0.0, 0.0, 0.0, 0.0, 0.0), 2.0).unwrap();
+            for (more, expected) in [(0.5, 2.0), (-1.5, 2.0), (0.0, f64::MAX)] {
+                let found = limits.room(&contact, &press(1.0), &press(more));
+                assert!(found == expected, "{sign} {more}: {found}");
+            }
+        }
     }
 }

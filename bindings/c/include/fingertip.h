@@ -181,15 +181,17 @@ enum ft_hand_state
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // The least grip for the load.
+    // The least grip for the load, with the factor of safety.
     FT_HAND_HOLDING = 0,
-    // No forces within friction and limits hold the load. The commands are those of before.
+    // No forces within friction and limits hold the load, even without the factor of safety. The commands are those of before.
     FT_HAND_CANNOT_HOLD = 1,
     // A number is not finite, no plausible contact is left, or no answer was found. The commands are those of before.
     FT_HAND_BLIND = 2,
     // A finger feels what cannot be, so that what the others are to bear is not known, and no load was given. The commands
     // are those of before.
     FT_HAND_DOUBTFUL = 3,
+    // The load can be held, but not with the factor of safety: the least grip without it, squeezed more as far as limits allow.
+    FT_HAND_WITHOUT_SAFETY = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

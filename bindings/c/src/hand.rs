@@ -91,15 +91,17 @@ impl ft_hand_settings {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ft_hand_state {
-    /// The least grip for the load.
+    /// The least grip for the load, with the factor of safety.
     FT_HAND_HOLDING = 0,
-    /// No forces within friction and limits hold the load. The commands are those of before.
+    /// No forces within friction and limits hold the load, even without the factor of safety. The commands are those of before.
     FT_HAND_CANNOT_HOLD = 1,
     /// A number is not finite, no plausible contact is left, or no answer was found. The commands are those of before.
     FT_HAND_BLIND = 2,
     /// A finger feels what cannot be, so that what the others are to bear is not known, and no load was given. The commands
     /// are those of before.
     FT_HAND_DOUBTFUL = 3,
+    /// The load can be held, but not with the factor of safety: the least grip without it, squeezed more as far as limits allow.
+    FT_HAND_WITHOUT_SAFETY = 4,
 }
 
 /// Normal forces to command.
@@ -234,6 +236,7 @@ pub unsafe extern "C" fn ft_hand_command(
         }
         match &command.state {
             HandState::Holding => {}
+            HandState::WithoutSafety => told.state = ft_hand_state::FT_HAND_WITHOUT_SAFETY,
             HandState::CannotHold(why) => {
                 told.state = ft_hand_state::FT_HAND_CANNOT_HOLD;
                 (told.velocity, told.turning) = (why.velocity.into(), why.turning.into());

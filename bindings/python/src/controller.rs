@@ -45,6 +45,8 @@ use crate::{enums, errors, numbers, value};
 pub(crate) struct PyController {
     hand: HandController<f64, MOST, ROWS, AnyBelief<f64>>,
     made: Made,
+    /// What the last command rests on.
+    state: Option<&'static str>,
 }
 
 /// Habits, what the fingers can give, and noise, scatter and probability of friction that is learnt.
@@ -61,7 +63,7 @@ impl PyController {
         };
         let limits = given.limits()?;
         let hand = HandController::with_beliefs(*settings, limits, [belief; MOST]).map_err(errors::hand)?;
-        Ok(Self { hand, made })
+        Ok(Self { hand, made, state: None })
     }
 }
 
@@ -183,7 +185,8 @@ impl PyController {
     /// normal : list of float
     ///     Normal forces to command [N].
     /// holds : bool or None
-    ///     Whether the load can be held; `None` where that is not known, and commands are those of before.
+    ///     Whether the load can be held; `None` where that is not known. Unless it is `True`, commands are those of before.
+    ///     `state` says whether it is held with the factor of safety.
     /// implausible : list of bool
     ///     Fingers that are not believed.
     #[pyo3(signature = (fingers, time_step, *, load=None))]
@@ -204,12 +207,25 @@ impl PyController {
         let load = load.map(|load| wrench(load, "load")).transpose()?;
         let load = load.map_or(HandLoad::FromFingers, HandLoad::Known);
         let HandCommand { normal, state, implausible } = self.hand.command(&states, &load, time_step);
-        let holds = match state {
-            HandState::Holding => Some(true),
-            HandState::CannotHold(_) => Some(false),
-            HandState::Doubtful | HandState::Blind => None,
+        let (holds, state) = match state {
+            HandState::Holding => (Some(true), "holding"),
+            HandState::WithoutSafety => (Some(true), "without_safety"),
+            HandState::CannotHold(_) => (Some(false), "cannot_hold"),
+            HandState::Doubtful => (None, "doubtful"),
+            HandState::Blind => (None, "blind"),
         };
+        self.state = Some(state);
         Ok((normal.into_iter().take(count).collect(), holds, implausible.into_iter().take(count).collect()))
+    }
+
+    /// What the last command rests on; `None` before the first. "holding": the least grip with the factor of safety.
+    /// "without_safety": the load can be held, but not with that factor, and what holds without it is commanded, squeezed more as
+    /// far as limits allow. Commands are those of before with "cannot_hold" (nothing holds), "doubtful" (a finger feels what
+    /// cannot be, and no load was given) and "blind" (a number is not finite, no plausible contact is left, or no answer was
+    /// found).
+    #[getter]
+    fn state(&self) -> Option<&'static str> {
+        self.state
     }
 
     /// Coefficient and standard deviation of each of up to five fingers as slips have taught them, or `None`.

@@ -346,6 +346,27 @@ def test_a_controller_keeps_to_joints_that_turn():
     assert hand.command(fingers, 1e-3)[1] is True
 
 
+def test_what_holds_without_safety_is_commanded_and_said():
+    hand = fingertip.HandController(safety=1.3, rise=1e4, greatest=2.3)
+    assert hand.state is None
+
+    def command(weight):
+        fingers = [
+            {"point": [x, 0, 0], "outward": [-x, 0, 0], "friction": 0.5, "arm": 3e-3, "normal": 4.0, "tangential": [0, 0, -1.0]}
+            for x in (-0.02, 0.02)
+        ]
+        normal, holds, _ = hand.command(fingers, 1e-3, load=[0, 0, -weight, 0, 0, 0])
+        return pytest.approx(normal, rel=1e-4), holds, hand.state
+
+    assert command(1.5) == ([1.95, 1.95], True, "holding")
+    # 2.6 N with safety, of 2.3 N that there are, and 2 N without.
+    assert command(2.0) == ([2.3, 2.3], True, "without_safety")
+    assert command(2.5) == ([2.3, 2.3], False, "cannot_hold")
+    assert command(np.nan)[1:] == (None, "blind")
+    assert hand.command(["unexplained", None], 1e-3)[1] is None and hand.state == "blind"
+    assert copy.copy(hand).state == "blind" and pickle.loads(pickle.dumps(hand)).state is None
+
+
 def test_the_quality_of_a_grasp_is_told():
     grasp = three()
     assert grasp.force_closure is True and grasp.rank == 6 and not grasp.freedoms() and len(grasp) == 3

@@ -81,15 +81,15 @@ fn a_scene_of_several_fingers_is_read_once() {
 #[test]
 fn two_fingertips_are_one_grasp() {
     let folder = folder();
-    let rows = [row(4.0, 2.0), row(1.5, 2.0), row(6.0, 30.0), row(0.0, 0.0)];
+    let rows = [row(4.0, 2.0), row(1.5, 2.0), row(6.0, 30.0), row(0.0, 0.0), row(9.5, 9.0)];
     folder.write("grip.csv", &format!("{HEADER}\n{}\n", rows.join("\n")));
     let text = folder.succeed(&["analyze", "grip.csv", "--scene", "hand.toml", "--output", "grasp.csv"]);
     assert!(text.contains("Two tips in grip.csv"), "{text}");
     let grasp = Contacts::parse(&folder.read("grasp.csv"));
-    assert_eq!(grasp.len(), 4);
+    assert_eq!(grasp.len(), 5);
     let at = |name: &str| grasp.numbers(name);
     let close = |a: f64, b: f64| (a - b).abs() < 1e-4 * (1.0 + b.abs());
-    assert_eq!(grasp.words("left_status"), ["contact", "contact", "contact", "below_threshold"]);
+    assert_eq!(grasp.words("left_status"), ["contact", "contact", "contact", "below_threshold", "contact"]);
     // The contacts are 2 cm from the middle, on either side.
     assert!(close(at("left_x_m")[0], -0.02) && close(at("right_x_m")[0], 0.02), "{:?}", at("left_x_m"));
     // The load is the weight alone: what squeezes cancels.
@@ -107,8 +107,13 @@ fn two_fingertips_are_one_grasp() {
         "{:?}",
         at("margin_N")
     );
-    // Fingers of ten newtons carry 8 N with this safety.
-    assert_eq!(grasp.words("held"), ["held", "held", "cannot_hold", ""]);
+    // Fingers of ten newtons carry 8 N with this safety, and 10 N without.
+    assert_eq!(grasp.words("held"), ["held", "held", "cannot_hold", "", "without_safety"]);
+    assert!(close(at("least_grip_N")[4], 18.0) && close(at("left_least_normal_N")[4], 9.0));
+    assert!(
+        text.contains("in 1 of the rows that hold, the load is held without the factor of safety"),
+        "{text}"
+    );
     let report = folder.read("report.html");
     assert!(report.contains("Grip, and the least that holds") && !report.contains("NaN"));
 }
@@ -207,7 +212,9 @@ fn joints_limit_the_least_grip_and_costs_share_it() {
         format!("{},{}", row(4.1, 2.0), numbers.replacen("0.08", "", 1)),
     ];
     folder.write("grip.csv", &format!("{HEADER},{},{}\n{}\n", names(1), names(2), rows.join("\n")));
-    for (torque, held) in [(needed * 1.02, "held"), (needed * 0.9, "cannot_hold")] {
+    for (torque, held) in
+        [(needed * 1.02, "held"), (needed * 0.9, "without_safety"), (needed * 0.7, "cannot_hold")]
+    {
         for (jacobian, second) in [(fixed, held), ("jacobian_columns = \"J\"", "")] {
             folder.write("jointed.toml", &jointed(torque, jacobian));
             folder.succeed(&[

@@ -1,86 +1,12 @@
 //! Normal forces to command, sample by sample.
 
-use fingertip_wrench::{Frame, Real};
+use fingertip_wrench::{Frame, Real, Wrench};
 
+use crate::react::squeeze::squeezed;
 use crate::{
-    BadHandSettings, CannotHold, FingerLimits, FingerState, FrictionBelief, Grasp, GripOutcome, Hand,
-    HandLoad, HandSettings, LeastGrip, SlipFactor,
+    BadHandSettings, FingerLimits, FingerState, FrictionBelief, Grasp, GraspContact, GripOutcome,
+    HandCommand, HandLoad, HandSettings, HandState, LeastGrip, SlipFactor,
 };
-
-/// What the commands rest on.
-///
-/// ```
-/// use fingertip_friction::SlipVerdict;
-/// use fingertip_hand::*;
-/// use fingertip_wrench::ContactForce;
-/// use nalgebra::Vector3;
-///
-/// let touching = |x: f64| {
-///     let contact = GraspContact::<f64, Hand>::soft(Vector3::x() * x, -Vector3::x() * x, 0.6, 3e-3)?;
-///     let force = ContactForce::new(3.0, -Vector3::z(), 0.0);
-///     Ok::<_, BadContact>(FingerState::Touching(FingerSample { contact, force, slip: SlipVerdict::Holding }))
-/// };
-/// let mut hand = HandController::new(HandSettings::default(), [FingerLimits::<f64, 2>::none(); 2])?;
-/// let mut state = |fingers| hand.command(&fingers, &HandLoad::FromFingers, 1e-3).state;
-/// assert_eq!(state([touching(-0.02)?, touching(0.02)?]), HandState::Holding);
-/// // One sensor says what cannot be; then nothing is felt at all.
-/// assert_eq!(state([touching(-0.02)?, FingerState::Unexplained]), HandState::Doubtful);
-/// assert_eq!(state([FingerState::Free, FingerState::Free]), HandState::Blind);
-/// # Ok::<(), Box<dyn core::error::Error>>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        rename_all = "snake_case",
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-    )
-)]
-pub enum HandState<T: Real, F: Frame = Hand> {
-    /// The least grip for the load.
-    Holding,
-    /// No forces within friction and limits hold the load. The commands are those of before: pressing harder does not
-    /// help.
-    CannotHold(CannotHold<T, F>),
-    /// A finger feels what cannot be, so that what it bears is not known, and no load was
-    /// [stated](HandLoad::Known): the commands are those of before.
-    Doubtful,
-    /// A number is not finite, no plausible contact is left, or the program was not decided: the commands are those of
-    /// before.
-    Blind,
-}
-
-/// Normal forces to command.
-///
-/// ```
-/// use fingertip_hand::{FingerLimits, FingerState, HandController, HandLoad, HandSettings, HandState};
-///
-/// let limits = FingerLimits::<f64, 2>::none().with_least_normal(0.2)?;
-/// let mut hand = HandController::new(HandSettings::default(), [limits; 2])?;
-/// let fingers: [FingerState<f64>; 2] = [FingerState::Free, FingerState::Unexplained];
-/// let command = hand.command(&fingers, &HandLoad::FromFingers, 1e-3);
-/// // Nothing drives the fingers: they keep to their least force. The second one is named.
-/// assert_eq!(command.normal, [0.2, 0.2]);
-/// assert_eq!((command.implausible, command.state), ([false, true], HandState::Blind));
-/// # Ok::<(), Box<dyn core::error::Error>>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-)]
-pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
-    /// For each finger \[N\].
-    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
-    pub normal: [T; N],
-    /// What they rest on.
-    pub state: HandState<T, F>,
-    /// The fingers that were not believed in this sample: their contact cannot be, or they feel a force without one.
-    #[cfg_attr(feature = "serde", serde(with = "serde_big_array::BigArray"))]
-    pub implausible: [bool; N],
-}
 
 /// Keeps the grip of a hand just firm enough, and answers slip in the same sample: the finger's friction is taken as
 /// less, and the least grip is solved anew for the load that is measured (`docs/theory/hand.md#reaction`).
@@ -89,7 +15,8 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 /// that says what cannot be (a force that does not press, is not finite, asks for more friction than there is, or is felt
 /// without a contact) is left out, keeps its command, and drives no other one: as long as there is one, what the others
 /// are to bear is not known, and all commands stay, unless the [load](HandLoad) is known without the fingers. All stay,
-/// too, when the program has no answer.
+/// too, when the program has no answer. Where the load can be held, but not with the factor of safety, the command is what
+/// holds [without](HandState::WithoutSafety) it.
 ///
 /// ```
 /// use fingertip_friction::SlipVerdict;
@@ -124,7 +51,9 @@ pub struct HandCommand<T: Real, const N: usize, F: Frame = Hand> {
 pub struct HandController<T: Real, const N: usize, const ROWS: usize, Belief = SlipFactor<T>> {
     settings: HandSettings<T>,
     limits: [FingerLimits<T, ROWS>; N],
+    /// Starts from the last grip: one with safety, or one [without](Self::without_safety).
     least: LeastGrip<T, N, ROWS>,
+    without_safety: bool,
     commands: [T; N],
     beliefs: [Belief; N],
 }
@@ -156,7 +85,7 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
     ) -> Result<Self, BadHandSettings> {
         let commands = limits.map(|limits| limits.least_normal().unwrap_or_else(T::zero));
         let settings = settings.checked()?;
-        Ok(Self { settings, limits, least: LeastGrip::new(), commands, beliefs })
+        Ok(Self { settings, limits, least: LeastGrip::new(), without_safety: false, commands, beliefs })
     }
 
     /// Other limits from now on, as of joints that have turned.
@@ -179,6 +108,7 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
         load: &HandLoad<T, F>,
         time_step: T,
     ) -> HandCommand<T, N, F> {
+        let safety = self.settings.safety;
         let mut implausible = [false; N];
         let mut contacts = [None; N];
         let timed = time_step > T::zero() && time_step.is_number();
@@ -189,7 +119,9 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
             let Some(finger) = finger.sample().filter(|_| !*implausible) else { continue };
             let known = finger.contact.friction();
             let friction = belief.rely(known, &finger.force, finger.slip, passed, &self.settings);
-            *contact = finger.contact.with_friction(friction / self.settings.safety);
+            // One whose friction over the factor of safety is no number holds nothing.
+            *contact =
+                finger.contact.with_friction(friction).filter(|contact| careful(contact, safety).is_some());
         }
         let commands = self.commands;
         let unchanged = |state| HandCommand { normal: commands, state, implausible };
@@ -199,19 +131,18 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
         let Some(load) = load.wrench(fingers, self.settings.greatest_ratio) else {
             return unchanged(HandState::Doubtful);
         };
-        let grip = match self.least.solve(&Grasp::new(contacts), &self.limits, &load) {
-            GripOutcome::Held(grip) => grip,
-            GripOutcome::CannotHold(why) => return unchanged(HandState::CannotHold(why)),
-            GripOutcome::NotFinite | GripOutcome::Undecided => return unchanged(HandState::Blind),
+        let (normal, state) = match self.grip(&contacts, &load) {
+            (Some(normal), state) => (normal, state),
+            (None, state) => return unchanged(state),
         };
-        let each = self.commands.iter_mut().zip(&contacts).zip(&grip.forces).zip(&self.limits);
-        for (((command, contact), force), limits) in each {
+        let each = self.commands.iter_mut().zip(&contacts).zip(&normal).zip(&self.limits);
+        for (((command, contact), wanted), limits) in each {
             if contact.is_none() {
                 continue;
             }
             let (lowest, highest) =
                 (*command - self.settings.fall * time_step, *command + self.settings.rise * time_step);
-            let mut wanted = force.normal.max(lowest).min(highest).max(T::zero());
+            let mut wanted = wanted.max(lowest).min(highest).max(T::zero());
             if let Some(greatest) = limits.greatest_normal() {
                 wanted = wanted.min(greatest);
             }
@@ -219,7 +150,48 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
                 *command = wanted;
             }
         }
-        HandCommand { normal: self.commands, state: HandState::Holding, implausible }
+        HandCommand { normal: self.commands, state, implausible }
+    }
+
+    /// Normal forces that hold the load at contacts with this friction, if there are some: with the factor of safety, or else
+    /// without it.
+    fn grip<F: Frame>(
+        &mut self,
+        contacts: &[Option<GraspContact<T, F>>; N],
+        load: &Wrench<T, F>,
+    ) -> (Option<[T; N]>, HandState<T, F>) {
+        let safety = self.settings.safety;
+        let careful = Grasp::new(contacts.map(|contact| careful(&contact?, safety)));
+        let outcome = if self.without_safety {
+            // What it starts from is kept for the grip without safety.
+            let mut least = LeastGrip::new();
+            let outcome = least.solve(&careful, &self.limits, load);
+            if outcome.grip().is_some() {
+                (self.least, self.without_safety) = (least, false);
+            }
+            outcome
+        } else {
+            self.least.solve(&careful, &self.limits, load)
+        };
+        match outcome {
+            GripOutcome::Held(grip) => {
+                return (Some(grip.forces.map(|force| force.normal)), HandState::Holding);
+            }
+            GripOutcome::CannotHold(why) if safety <= T::one() => return (None, HandState::CannotHold(why)),
+            GripOutcome::NotFinite => return (None, HandState::Blind),
+            GripOutcome::CannotHold(_) | GripOutcome::Undecided => {}
+        }
+        let grasp = Grasp::new(*contacts);
+        let outcome = self.least.solve(&grasp, &self.limits, load);
+        self.without_safety = outcome.grip().is_some();
+        match outcome {
+            GripOutcome::Held(grip) => {
+                let normal = squeezed(&grasp, &self.limits, &grip.forces, safety);
+                (Some(normal), HandState::WithoutSafety)
+            }
+            GripOutcome::CannotHold(why) => (None, HandState::CannotHold(why)),
+            GripOutcome::NotFinite | GripOutcome::Undecided => (None, HandState::Blind),
+        }
     }
 
     /// The settings.
@@ -238,5 +210,11 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
     pub fn forget_friction(&mut self) {
         self.beliefs.iter_mut().for_each(Belief::forget);
         self.least.forget();
+        self.without_safety = false;
     }
+}
+
+/// The contact with its friction over the factor of safety; `None` if that is no number.
+fn careful<T: Real, F: Frame>(contact: &GraspContact<T, F>, safety: T) -> Option<GraspContact<T, F>> {
+    contact.with_friction(contact.friction() / safety)
 }

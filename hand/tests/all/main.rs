@@ -17,3 +17,4 @@ mod quality;
 mod reaction;
 mod stored;
 mod warm_starts;
+mod without_safety;

@@ -52,6 +52,7 @@ fn grips<T: Real + Serialize + DeserializeOwned>() {
     kept(&not_held);
     kept(&why);
     kept(&HandState::CannotHold(why));
+    assert_eq!(kept_as_text(&HandState::<T>::WithoutSafety), "without_safety");
     assert_eq!(kept_as_text(&solve(&two, &force(f64::NAN, 0.0))), "not_finite");
     assert_eq!(kept_as_text(&GripOutcome::<T, 2>::Undecided), "undecided");
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
 mod hand;
+mod hand_consistency;
 mod health;
 mod prototype;
 mod simulated_flaws;

@@ -143,6 +143,40 @@ fn commands_are_those_of_the_controller() {
     assert_eq!(unsafe { ft_hand_forget(hand.0) }, ft_status::FT_OK);
 }
 
+/// Three fingers that may give 3 N each, and loads that need more with safety, and then without.
+#[test]
+fn what_holds_without_safety_is_commanded_and_said() {
+    let hand = Held::new(&[ft_finger_limits { greatest_normal_force: 3.0, ..LIMIT }; 3]);
+    let fingers = [0, 1, 2].map(|index| finger(index, 2e-3));
+    let mut states = Vec::new();
+    for down in [3.0, 4.7, 8.0] {
+        let load = ft_wrench { force: [0.0, 0.0, -down], torque: [0.0; 3] };
+        let before = written::<ft_hand_order>(|to| unsafe {
+            ft_hand_command(hand.0, fingers.as_ptr(), 3, &load, 0.1, to)
+        });
+        let order: ft_hand_order =
+            written(|to| unsafe { ft_hand_command(hand.0, fingers.as_ptr(), 3, &load, 0.1, to) }).unwrap();
+        assert_eq!(order.state, before.unwrap().state);
+        let sum = order.normal_force.iter().sum::<f64>();
+        match order.state {
+            ft_hand_state::FT_HAND_HOLDING => assert!(sum >= 1.3 * down / 0.6 - 1e-6, "{order:?}"),
+            ft_hand_state::FT_HAND_WITHOUT_SAFETY => {
+                assert!(sum >= down / 0.6 - 1e-6 && sum < 9.0, "{order:?}");
+                assert_eq!([order.velocity, order.turning], [[0.0; 3]; 2]);
+            }
+            _ => assert!(order.velocity[2] < 0.0),
+        }
+        states.push(order.state);
+    }
+    let expected = [
+        ft_hand_state::FT_HAND_HOLDING,
+        ft_hand_state::FT_HAND_WITHOUT_SAFETY,
+        ft_hand_state::FT_HAND_CANNOT_HOLD,
+    ];
+    assert_eq!(states, expected);
+    assert_eq!(states[1] as u32, 4);
+}
+
 #[test]
 fn the_least_grip_is_that_of_the_crate() {
     let hand = Held::new(&[LIMIT; 3]);

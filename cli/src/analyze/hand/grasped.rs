@@ -1,6 +1,6 @@
 //! What a row says of all fingers together.
 
-use fingertip::hand::{FingerLimits, FingerState, Grasp, GraspContact, GripOutcome, Hand, LeastGrip};
+use fingertip::hand::{FingerLimits, FingerState, Grasp, GraspContact, Grip, GripOutcome, Hand, LeastGrip};
 use fingertip::wrench::{ContactForce, RigidTransform, Sensor, Wrench};
 use fingertip_recordings::Row;
 use fingertip_scene::Felt;
@@ -27,7 +27,7 @@ pub(super) struct Grasped {
     pub(super) grip: f64,
     /// The part of it with which the object is squeezed \[N\].
     pub(super) squeeze: f64,
-    /// The least sum of normal forces that holds the load, and each finger's \[N\].
+    /// The least sum of normal forces that holds the load, and each finger's \[N\]: with safety, or else without it.
     pub(super) least: Option<(f64, [f64; MOST])>,
     pub(super) held: &'static str,
     /// What the scene asks for beside.
@@ -91,13 +91,13 @@ impl Grasped {
             (None, "")
         } else {
             match program.solve(&careful, limits, &load) {
-                GripOutcome::Held(grip) => {
-                    let each = grip.forces.map(|force| force.normal);
-                    (Some((each.iter().sum(), each)), "held")
-                }
-                GripOutcome::CannotHold(_) => (None, "cannot_hold"),
+                GripOutcome::Held(grip) => (Some(normal(&grip)), "held"),
                 GripOutcome::NotFinite => (None, "not_finite"),
-                GripOutcome::Undecided => (None, "undecided"),
+                failed => match LeastGrip::new().solve(&grasp, limits, &load) {
+                    GripOutcome::Held(grip) => (Some(normal(&grip)), "without_safety"),
+                    _ if matches!(failed, GripOutcome::Undecided) => (None, "undecided"),
+                    _ => (None, "cannot_hold"),
+                },
             }
         };
         let known = (plausible && grasp.touching() > 0).then_some(&load);
@@ -118,4 +118,10 @@ impl Grasped {
     pub(super) fn touching(&self) -> usize {
         self.contacts.iter().flatten().count()
     }
+}
+
+/// The sum of the normal forces of a grip, and each finger's.
+fn normal(grip: &Grip<f64, MOST>) -> (f64, [f64; MOST]) {
+    let each = grip.forces.map(|force| force.normal);
+    (each.iter().sum(), each)
 }

@@ -27,6 +27,8 @@ pub(super) struct Seen {
     /// Rows in which as many fingers touched.
     touching: [u64; MOST + 1],
     held: u64,
+    /// Only without the factor of safety.
+    without_safety: u64,
     not_held: u64,
     undecided: u64,
     /// A finger feels what cannot be.
@@ -52,6 +54,7 @@ impl Seen {
             rows: 0,
             touching: [0; MOST + 1],
             held: 0,
+            without_safety: 0,
             not_held: 0,
             undecided: 0,
             doubtful: 0,
@@ -90,6 +93,7 @@ impl Seen {
         if touching > 0 {
             match grasped.held {
                 "held" => self.held += 1,
+                "without_safety" => self.without_safety += 1,
                 "cannot_hold" => self.not_held += 1,
                 _ => self.undecided += 1,
             }
@@ -132,7 +136,8 @@ impl Seen {
         } else {
             format!("{} in {name}", self.title)
         };
-        let judged = self.held + self.not_held + self.undecided;
+        let held = self.held + self.without_safety;
+        let judged = held + self.not_held + self.undecided;
         let lead = vec![
             format!(
                 "{} rows of {} fingers; all of them touch in {} of these.",
@@ -144,7 +149,7 @@ impl Seen {
                 "Of the {} rows in which any finger touches, forces within friction and limits hold the load in {}, and \
                  none do in {}.",
                 count(judged),
-                percent(self.held, judged),
+                percent(held, judged),
                 percent(self.not_held, judged)
             ),
         ];
@@ -153,6 +158,13 @@ impl Seen {
              and places are in the frame of the hand"
                 .to_owned(),
         );
+        if self.without_safety > 0 {
+            notes.push(format!(
+                "in {} of the rows that hold, the load is held without the factor of safety alone, and the least grip is that \
+                 without it",
+                count(self.without_safety)
+            ));
+        }
         if self.doubtful > 0 {
             notes.push(format!(
                 "{} rows are doubtful: a finger feels a force that no contact explains, or more friction than there is, so what \

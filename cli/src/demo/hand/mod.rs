@@ -102,7 +102,9 @@ fn play(seed: u64) -> Result<Outcome, CliError> {
             ),
             moved,
             phase: sample.phase,
-            holding: felt.command.is_some_and(|command| matches!(command.state, HandState::Holding)),
+            holding: felt.command.is_some_and(|command| {
+                matches!(command.state, HandState::Holding | HandState::WithoutSafety)
+            }),
         });
     })
     .map_err(fault)?;
