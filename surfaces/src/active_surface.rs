@@ -215,6 +215,27 @@ pub trait ActiveSurface<T: Real> {
         None
     }
 
+    /// Where a line first enters a surface that promises [`CLOSED_CONVEX`](Shortcuts::CLOSED_CONVEX), and whether it does;
+    /// if not, as [`closest_approach`](Self::closest_approach). Wrappers that move a shape move the answer, once.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn entry_or_closest(&self, line: &Line<T>) -> (bool, Option<ClosestApproach<T>>) {
+        let mut entry = None;
+        self.crossings(line, |Crossing { point, normal, .. }| {
+            if entry.is_none() {
+                entry = Some(ClosestApproach { gap: T::zero(), point, normal, active: true });
+            }
+        });
+        (entry.is_some(), entry.or_else(|| self.closest_approach(line)))
+    }
+
+    /// Whether a line enters the active surface, and a place where it leaves, the last that crossings tell.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn entered_and_left(&self, line: &Line<T>) -> (bool, Option<Vector3<T>>) {
+        entered_and_left(line, |visit| self.crossings(line, visit))
+    }
+
     /// The outward unit normal at a point on the surface, or within rounding of it.
     ///
     /// The default looks along seven fixed lines through the point, which cannot all be tangent, and then
@@ -265,6 +286,35 @@ fn normal_by_crossings<T: Real, S: ActiveSurface<T> + ?Sized>(surface: &S, point
     look(found.normal).map_or(found, |straight| nearer(found, straight)).normal
 }
 
+/// [`ActiveSurface::entered_and_left`] by crossings.
+#[inline(always)]
+pub(crate) fn entered_and_left<T: Real>(
+    line: &Line<T>,
+    crossings: impl FnOnce(&mut dyn FnMut(Crossing<T>)),
+) -> (bool, Option<Vector3<T>>) {
+    let (mut entered, mut left) = (false, None);
+    crossings(&mut |crossing| {
+        let along = line.direction.dot(&crossing.normal);
+        if along < T::zero() {
+            entered |= crossing.active;
+        } else if along >= T::zero() {
+            left = Some(crossing.point);
+        }
+    });
+    (entered, left)
+}
+
+/// The crossings of a line, out of line: for whoever asks for few samples, so that they are compiled once for all of them.
+#[doc(hidden)]
+#[inline(never)]
+pub fn rare_crossings<T: Real, S: ActiveSurface<T> + ?Sized>(
+    surface: &S,
+    line: &Line<T>,
+    visit: &mut dyn FnMut(Crossing<T>),
+) {
+    surface.crossings(line, visit);
+}
+
 /// The crossing of a line that is nearest to its point.
 #[doc(hidden)]
 pub fn nearest_crossing<T: Real, S: ActiveSurface<T> + ?Sized>(
@@ -289,6 +339,16 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for &S {
     #[inline]
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         (**self).closest_approach(line)
+    }
+
+    #[inline(always)]
+    fn entry_or_closest(&self, line: &Line<T>) -> (bool, Option<ClosestApproach<T>>) {
+        (**self).entry_or_closest(line)
+    }
+
+    #[inline(always)]
+    fn entered_and_left(&self, line: &Line<T>) -> (bool, Option<Vector3<T>>) {
+        (**self).entered_and_left(line)
     }
 
     #[inline]

@@ -24,9 +24,9 @@ mod signed_distance;
 mod smooth;
 pub mod testing;
 
-#[doc(hidden)]
-pub use active_surface::nearest_crossing;
 pub use active_surface::{ActiveSurface, ClosestApproach, Crossing, Entry, ForceParts};
+#[doc(hidden)]
+pub use active_surface::{nearest_crossing, rare_crossings};
 pub use bad_shape::BadShape;
 #[doc(hidden)]
 pub use combinators::is_inside_along;

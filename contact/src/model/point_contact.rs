@@ -2,7 +2,7 @@
 
 use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, largest};
 use fingertip_surfaces::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, ForceLine, ForceParts, Shortcuts, is_closed_convex,
+    ActiveSurface, BadShape, ClosestApproach, ForceLine, ForceParts, Shortcuts, is_closed_convex,
 };
 use fingertip_wrench::{
     ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
@@ -280,15 +280,9 @@ impl<T: Real> PointContact<T> {
         surface: &S,
         line: &Line<T>,
     ) -> Result<Place<T>, NoContact<T>> {
-        let mut entry = None;
-        surface.crossings(line, |Crossing { point, normal, .. }| {
-            if entry.is_none() {
-                entry = Some(ClosestApproach { gap: T::zero(), point, normal, active: true });
-            }
-        });
         // What both ways do is there once: that keeps the code small, too.
-        let enters = entry.is_some();
-        self.meet(wrench, surface, line, entry.or_else(|| surface.closest_approach(line)), enters)
+        let (enters, found) = surface.entry_or_closest(line);
+        self.meet(wrench, surface, line, found, enters)
     }
 
     /// Of all entries the best, or the reason why none is a contact; `None` if there are none.

@@ -1,7 +1,7 @@
 //! The capsule.
 
 use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::{ActiveSurface, Capsule, Cylinder, ForceLine, LocalSurface, SmoothSurface, Sphere};
+use fingertip_surfaces::{ActiveSurface, Capsule, ForceLine, LocalSurface, SmoothSurface, Sphere};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -28,28 +28,44 @@ fn on_capsule<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<SoftCon
     // Rounding under a large spin torque, or at a flat angle, moves a contact along the side, and past its
     // ends.
     let is_steady = double::is_steady(wrench, shape.radius());
-    if let Ok(side) = Cylinder::new(centre, axis, shape.radius())
-        && let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
-        && let contact = if is_steady(&contact) { contact } else { refined(wrench, &side, &contact) }
+    if let Some(contact) = on_round_side(&centre, &axis, shape.radius(), &wrench.force(), &torque)
+        && let contact =
+            if is_steady(&contact) { contact } else { refined(wrench, &shape.without_ends(), &contact) }
         && (contact.point - centre).dot(&axis).abs() <= half
     {
         return Ok(contact);
     }
     let mut search = Search::Complete;
     for end in [axis, -axis] {
-        // A convex surface has one contact at most; a point of the seam belongs to the side.
-        let Ok(ball) = Sphere::new(centre + end * half, shape.radius()) else { continue };
-        match on_sphere(&ball, wrench) {
-            Ok(contact) if contact.normal.dot(&end) >= T::zero() => return Ok(contact),
-            Ok(_) => {}
-            Err(pair) => {
-                if pair.iter().all(|point| (point - ball.centre()).dot(&end) >= T::zero()) {
-                    search = Search::Grazing(pair);
-                }
-            }
+        match on_end(shape, &end, wrench) {
+            Err(Search::Complete) => {}
+            Err(pair) => search = pair,
+            found => return found,
         }
     }
     Err(search)
+}
+
+/// On the round end that lies this way.
+///
+/// # Errors
+/// As [`on_capsule`].
+#[inline(never)]
+fn on_end<T: Real>(
+    shape: &Capsule<T>,
+    end: &Vector3<T>,
+    wrench: &Wrench<T>,
+) -> Result<SoftContact<T>, Search<T>> {
+    // A convex surface has one contact at most; a point of the seam belongs to the side.
+    let ball = Sphere::new(shape.centre() + end * shape.half_length(), shape.radius())
+        .map_err(|_| Search::Complete)?;
+    match on_sphere(&ball, wrench) {
+        Ok(contact) if contact.normal.dot(end) >= T::zero() => Ok(contact),
+        Err(pair) if pair.iter().all(|point| (point - ball.centre()).dot(end) >= T::zero()) => {
+            Err(Search::Grazing(pair))
+        }
+        _ => Err(Search::Complete),
+    }
 }
 
 /// The same, in double precision if the type is narrower and the spin torque rules: then rounding decides

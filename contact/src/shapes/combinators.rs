@@ -3,6 +3,7 @@
 use fingertip_surfaces::is_inside_along;
 use fingertip_surfaces::numeric::fine_pose::FinePose;
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
+use fingertip_surfaces::numeric::moved::{direction_inside, direction_outside, point_inside, point_outside};
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::{
     ActiveSurface, Compound, ForceLine, Offset, Posed, Region, SignedDistance, SmoothSurface, Trimmed,
@@ -25,21 +26,17 @@ fn moved<T: Real, S: SoftFingerSurface<T>>(
     mut visit: impl FnMut(SoftContact<T>),
 ) -> Search<T> {
     let pose = posed.sensor_from_shape();
-    let (rotation, origin) = (pose.rotation(), pose.origin());
     let inside = Wrench::on_fingertip(
-        rotation.tr_mul(&wrench.force()),
-        rotation.tr_mul(&wrench.torque_about(&origin)),
+        direction_inside(pose, &wrench.force()),
+        direction_inside(pose, &wrench.torque_about(&pose.origin())),
     );
-    let last = last.map(|last| rotation.tr_mul(&(last - origin)));
+    let last = last.map(|last| point_inside(pose, last));
     let search = posed.inner().soft_contacts(&inside, last.as_ref(), |contact| {
-        visit(SoftContact {
-            point: rotation * contact.point + origin,
-            normal: rotation * contact.normal,
-            ..contact
-        });
+        let (point, normal) = (point_outside(pose, &contact.point), direction_outside(pose, &contact.normal));
+        visit(SoftContact { point, normal, ..contact });
     });
     match search {
-        Search::Grazing(pair) => Search::Grazing(pair.map(|point| rotation * point + origin)),
+        Search::Grazing(pair) => Search::Grazing(pair.map(|point| point_outside(pose, &point))),
         other => other,
     }
 }

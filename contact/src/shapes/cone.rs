@@ -1,14 +1,15 @@
 //! The cone.
 
+use fingertip_surfaces::numeric::mixed_precision::is_refined_in_double;
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::numeric::vectors::{length, unit_or};
-use fingertip_surfaces::{ActiveSurface, Cone, Extent, ForceLine, LocalSurface, SmoothSurface};
+use fingertip_surfaces::{Cone, Extent, ForceLine, LocalSurface, SmoothSurface, rare_crossings};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::slanted_side::SlantedSide;
-use crate::soft_finger::closed_form::{is_active, soft_finger, told};
+use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
@@ -37,8 +38,7 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
     let (first, second) = tangents(&axis);
     let inward = |v: &Vector3<T>| Vector3::new(v.dot(&first), v.dot(&second), v.dot(&axis));
     let outward = |v: &Vector3<T>| first * v.x + second * v.y + axis * v.z;
-    let upright =
-        Cone::new(Vector3::zeros(), Vector3::z(), cone.half_angle()).map_err(|_| Search::Incomplete)?;
+    let upright = cone.upright();
     // A cone has no size: the wrench brings one.
     let reach = length(&torque) / length(&force);
     let reach = if reach > T::LEAST_NORMAL { reach } else { T::one() };
@@ -69,15 +69,17 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
         }
         // Under a large spin torque the torque tells better on which side the contact is.
         let rest = (problem.torque - closed.cross(&problem.force)) * -problem.power;
-        let slope = cone.half_angle().sine() / cone.half_angle().cosine();
+        let (sine, cosine) = cone.half_angle_sin_cos();
+        let slope = sine / cosine;
         let across = unit_or(&Vector3::new(rest.x, rest.y, T::zero()), Vector3::x) * slope;
         let turned = (across + Vector3::z()) * closed.z;
         if let Some(contact) = finish(turned) {
             return Ok(contact);
         }
         // Next to the tip only more digits tell where the way ends.
-        for rough in [closed, turned] {
-            let near = problem.place(rough).and_then(|place| {
+        let roughs = if is_refined_in_double::<T>() { &[closed, turned][..] } else { &[] };
+        for rough in roughs {
+            let near = problem.place(*rough).and_then(|place| {
                 let spin = problem.spin_at(&place)?;
                 Some(to_sensor(&problem.contact(&problem.state(place, spin, &problem.torque))))
             });
@@ -88,7 +90,7 @@ pub(super) fn on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<Sof
     }
     let mut found = None;
     if let Ok(line) = wrench.line_of_action() {
-        cone.crossings(&line.line, |crossing| {
+        rare_crossings(cone, &line.line, &mut |crossing| {
             if found.is_none() && crossing.normal.dot(&line.line.direction) < T::zero() {
                 found = finish(problem.inward(&inward(&(crossing.point - apex))));
             }
@@ -123,7 +125,7 @@ impl<T: Real> SideOfACone<T> {
     /// In the units of a problem, of which a length is the wrench's reach \[m\].
     fn new(problem: &Problem<'_, T, Cone<T>>, cone: &Cone<T>, reach: T) -> Self {
         let (f, m) = (problem.force, problem.torque);
-        let (sine, cosine) = (cone.half_angle().sine(), cone.half_angle().cosine());
+        let (sine, cosine) = cone.half_angle_sin_cos();
         // This stays in range.
         let (d1, d3) = (cosine * cosine, -(sine * sine));
         let adjugate = Vector3::new(d1 * d3 * m.x, d1 * d3 * m.y, d1 * d1 * m.z);
@@ -190,7 +192,7 @@ fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
     let mut found = on_cone(cone, wrench);
     if found.is_err() {
         let (apex, tip) = (cone.apex(), -cone.axis());
-        let least = cone.half_angle().sine();
+        let (least, _) = cone.half_angle_sin_cos();
         on_rim(
             T::zero(),
             &tip,
@@ -210,7 +212,7 @@ fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
 /// As [`on_cone`].
 fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
     let is_steady = |contact: &SoftContact<T>| {
-        let radius = length(&(contact.point - cone.apex())) * cone.half_angle().sine();
+        let radius = length(&(contact.point - cone.apex())) * cone.half_angle_sin_cos().0;
         is_steady(wrench, radius)(contact)
     };
     finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| cone_in_double(cone, wrench))
@@ -226,7 +228,8 @@ fn cone_in_double<T: Real>(
 
 /// With what the depth of the cone says.
 fn if_active<T: Real>(cone: &Cone<T>, contact: SoftContact<T>) -> SoftContact<T> {
-    SoftContact { active: contact.point == cone.apex() || is_active(cone, &contact), ..contact }
+    let depth = (contact.point - cone.apex()).dot(&cone.axis());
+    SoftContact { active: cone.depth().is_none_or(|most| depth <= most), ..contact }
 }
 
 soft_finger!(
@@ -254,7 +257,7 @@ soft_finger!(
 /// from the axis and the depth `h` under the apex.
 fn of_cone<T: Real>(shape: &Cone<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 1] {
     let level = shape.level(point);
-    let (sine, cosine) = shape.half_angle().sine_and_cosine();
+    let (sine, cosine) = shape.half_angle_sin_cos();
     let from_apex = point - shape.apex();
     let depth = from_apex.dot(&shape.axis());
     // ρ = (g + a sin α)/cos α.

@@ -22,7 +22,11 @@ use crate::{GeometrySensitivity, Search, SoftContact};
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
 /// the flat ends, by that of the plane; of the edges between them and of a tip, with a normal between
 /// those of the faces that meet. A convex solid has one contact, and it has it on one of these.
-pub(super) fn on_frustum<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+pub(super) fn on_frustum<T: Real>(
+    solid: &Frustum<T>,
+    wrench: &Wrench<T>,
+    on_side: impl FnOnce(&Frustum<T>, &Wrench<T>) -> Option<SoftContact<T>>,
+) -> Option<SoftContact<T>> {
     let (base, axis, height) = (solid.base_centre(), solid.axis(), solid.height());
     let force = wrench.force();
     if let Some(contact) = on_side(solid, wrench) {
@@ -67,6 +71,13 @@ pub(super) fn on_frustum<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Opt
     None
 }
 
+/// On the side of a cylinder, unbounded.
+fn on_straight_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let (base, axis) = (solid.base_centre(), solid.axis());
+    let radius = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
+    on_round_side(&base, &axis, radius, &wrench.force(), &wrench.torque_about(&base))
+}
+
 /// On the side, unbounded: by a closed form, and a step of Newton's method, which makes good what the
 /// closed form of a slender cone loses by counting from a far apex.
 fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
@@ -74,15 +85,12 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
     let cone = || {
         let apex = base + axis * (solid.base_radius() / taper);
         let into = if taper > T::zero() { -axis } else { axis };
-        Cone::new(apex, into, taper.abs().arctangent()).ok()
+        Cone::of_slope(apex, into, taper.abs())
     };
     let rough = if taper.is_zero() { None } else { cone().map(|cone| on_cone(&cone, wrench)) };
     let rough = match rough {
         Some(contact) => contact.ok()?,
-        None => {
-            let radius = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
-            on_round_side(&base, &axis, radius, &wrench.force(), &wrench.torque_about(&base))?
-        }
+        None => on_straight_side(solid, wrench)?,
     };
     if taper.is_zero() {
         return Some(rough);
@@ -141,29 +149,28 @@ fn is_on_edge<T: Real>(solid: &Frustum<T>, point: &Vector3<T>) -> bool {
 /// In double precision if the type is narrower and rounding decides between the side, an end and an edge. So it does on
 /// an edge, where the place answers to the torque by more the less that is.
 fn on_frustum_finely<T: Real>(
-    solid: &Frustum<T>,
+    (solid, found): (&Frustum<T>, Option<SoftContact<T>>),
     wrench: &Wrench<T>,
     again: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
 ) -> Result<SoftContact<T>, Search<T>> {
     let lever = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
     let is_steady = is_steady(wrench, lever);
     let is_steady = |contact: &SoftContact<T>| is_steady(contact) && !is_on_edge(solid, &contact.point);
-    finely(sole(on_frustum(solid, wrench), wrench), is_steady, wrench, again)
+    finely(sole(found, wrench), is_steady, wrench, again)
 }
 
-/// `double` is the same solid in double precision.
-fn frustum_in_double(
-    double: Option<Frustum<f64>>,
+fn frustum_in_double<T: Real>(
+    shape: &Frustum<T>,
     wrench: &Wrench<f64>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    double.map(|double| sole(on_frustum(&double, wrench), wrench))
+    shape.in_double().map(|double| sole(on_frustum(&double, wrench, on_side), wrench))
 }
 
 fn capped_in_double<T: Real>(
     shape: &CappedCylinder<T>,
     wrench: &Wrench<f64>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    frustum_in_double(shape.in_double().map(|double| *double.solid()), wrench)
+    shape.in_double().map(|double| sole(on_frustum(double.solid(), wrench, on_straight_side), wrench))
 }
 
 /// The side, or the plane of an end: which of them the normal of the surface is nearer to.
@@ -194,13 +201,15 @@ fn solid_patch<T: Real>(
 soft_finger!(
     Frustum,
     |shape, wrench, _, visit| told(
-        on_frustum_finely(shape, wrench, |wrench| frustum_in_double(shape.in_double(), wrench)),
+        on_frustum_finely((shape, on_frustum(shape, wrench, on_side)), wrench, |wrench| frustum_in_double(
+            shape, wrench
+        )),
         visit
     ),
     sole | shape,
     push | steeply_on_frustum(shape, push),
     double | shape,
-    wrench | frustum_in_double(shape.in_double(), wrench),
+    wrench | frustum_in_double(shape, wrench),
     patch | shape,
     point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()])),
     sizes | shape,
@@ -211,7 +220,11 @@ soft_finger!(
 soft_finger!(
     CappedCylinder,
     |shape, wrench, _, visit| told(
-        on_frustum_finely(shape.solid(), wrench, |wrench| capped_in_double(shape, wrench)),
+        on_frustum_finely(
+            (shape.solid(), on_frustum(shape.solid(), wrench, on_straight_side)),
+            wrench,
+            |wrench| capped_in_double(shape, wrench)
+        ),
         visit
     ),
     sole | shape,

@@ -4,14 +4,15 @@ use fingertip_surfaces::{Paraboloid, SmoothSurface};
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
-use crate::soft_finger::closed_form::{is_active, soft_finger};
+use crate::soft_finger::closed_form::soft_finger;
 use crate::{GeometrySensitivity, SoftContact, newton_soft_contacts};
 
 soft_finger!(
     Paraboloid,
     |shape, wrench, last, visit| {
         newton_soft_contacts(shape, wrench, last, |contact| {
-            visit(SoftContact { active: is_active(shape, &contact), ..contact });
+            let active = shape.depth().is_none_or(|depth| -contact.point.z <= depth);
+            visit(SoftContact { active, ..contact });
         })
     },
     sizes | shape,

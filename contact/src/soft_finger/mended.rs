@@ -29,12 +29,19 @@ pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
-    mended_on(
-        wrench,
-        &|point| surface.normal(point),
-        &|point| surface.shortcuts().surface_residual(point),
-        contact,
-    )
+    mended_on(wrench, &|point| normal_at(surface, point), &|point| residual_at(surface, point), contact)
+}
+
+/// Kept out of line, as it is asked often for few samples: where one surface is compiled only, it would be copied to
+/// every place that asks.
+#[inline(never)]
+fn normal_at<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> Vector3<T> {
+    surface.normal(point)
+}
+
+#[inline(never)]
+fn residual_at<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> T {
+    surface.shortcuts().surface_residual(point)
 }
 
 /// The same on a facet.
@@ -72,6 +79,23 @@ fn mended_on<T: Real>(
     SoftContact { spin_torque: mended.spin_torque / scale, ..mended }
 }
 
+/// How the normal changes along a way of this length.
+#[inline(never)]
+fn bend<T: Real>(
+    normal: &dyn Fn(&Vector3<T>) -> Vector3<T>,
+    point: &Vector3<T>,
+    way: &Vector3<T>,
+    stride: T,
+) -> Vector3<T> {
+    (normal(&(point + way)) - normal(&(point - way))) / (stride + stride)
+}
+
+/// A component of the torque that is left about a point, `m − (y·fz − z·fy) − τ n`.
+#[inline(never)]
+fn left<T: Real>([m, y, fz, z, fy]: [T; 5], spin: T, n: T) -> T {
+    torque_left(m, y, fz, z, fy).minus(Twofold::new(spin).times(Twofold::new(n))).value()
+}
+
 /// A step, and how long it is; `None` where there is none to be taken.
 fn one_step<T: Real>(
     wrench: &Wrench<T>,
@@ -94,8 +118,8 @@ fn one_step<T: Real>(
     let (e1, e2) = tangents(&n);
     // At the cube root of ε the rounding of the normal and its third derivatives weigh about the same.
     let stride = size * T::EPSILON.cube_root();
-    let bend = |e: &Vector3<T>| (normal(&(c + e * stride)) - normal(&(c - e * stride))) / (stride + stride);
-    let (first, second) = (bend(&e1), bend(&e2));
+    let (first, second) =
+        (bend(normal, &c, &(e1 * stride), stride), bend(normal, &c, &(e2 * stride), stride));
     let steepest = larger(first.amax(), second.amax());
     if !(spin.abs() * steepest <= strength) {
         return None;
@@ -103,13 +127,10 @@ fn one_step<T: Real>(
     let (w11, w22) = (spin * e1.dot(&first), spin * e2.dot(&second));
     let w12 = spin * (e1.dot(&second) + e2.dot(&first)) * T::literal(0.5);
 
-    let left = |m: T, y: T, fz: T, z: T, fy: T, n: T| {
-        torque_left(m, y, fz, z, fy).minus(Twofold::new(spin).times(Twofold::new(n))).value()
-    };
     let rest = Vector3::new(
-        left(m.x, c.y, f.z, c.z, f.y, n.x),
-        left(m.y, c.z, f.x, c.x, f.z, n.y),
-        left(m.z, c.x, f.y, c.y, f.x, n.z),
+        left([m.x, c.y, f.z, c.z, f.y], spin, n.x),
+        left([m.y, c.z, f.x, c.x, f.z], spin, n.y),
+        left([m.z, c.x, f.y, c.y, f.x], spin, n.z),
     );
     let outside = residual(&c);
     let turned = rest + n.cross(&f) * outside;

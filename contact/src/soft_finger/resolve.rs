@@ -1,8 +1,8 @@
 //! From a wrench to the contact of a soft finger, or the reason why there is none.
 
 use fingertip_surfaces::ForceLine;
-use fingertip_surfaces::numeric::vectors::{hypotenuse, is_tame, larger, largest, length, smaller};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_surfaces::numeric::vectors::{hypotenuse, is_tame, larger, largest, rarely_length, smaller};
+use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use super::closed_form::is_pure_force;
@@ -58,7 +58,7 @@ impl<T: Real> SoftFinger<T> {
         if tame && self.torque_arm.is_none() && force.norm_squared() <= most {
             return None;
         }
-        let sliding = length(&(force + contact.normal * pressing));
+        let sliding = rarely_length(&(force + contact.normal * pressing));
         let turning = self.torque_arm.map_or_else(T::zero, |arm| contact.spin_torque / arm);
         let needed = hypotenuse(sliding, if turning.is_number() { turning } else { T::GREATEST });
         (!(needed <= greatest * pressing)).then(|| smaller(needed / pressing, T::GREATEST))
@@ -72,57 +72,49 @@ impl<T: Real> SoftFinger<T> {
         surface: &S,
         last: Option<&Vector3<T>>,
     ) -> Resolution<T> {
-        let most_torque = largest(&wrench.torque());
-        if is_tame(largest(&wrench.force())) && (is_tame(most_torque) || most_torque.is_zero()) {
-            let squared = wrench.force().norm_squared();
-            // A NaN may have hidden behind a number.
-            let torque = wrench.torque();
-            if (squared + torque.x + torque.y + torque.z).is_number() {
-                if !(squared >= self.least_force * self.least_force) {
-                    return Resolution::NoContact(NoContact::BelowThreshold { force: squared.root() });
-                }
-                let scaled = Scaled { wrench: *wrench, unit: None };
-                return self.settled(wrench, &scaled, surface, last);
-            }
+        let scaled = match self.tame(wrench).unwrap_or_else(|| self.scaled(wrench)) {
+            Ok(scaled) => scaled,
+            Err(reason) => return Resolution::NoContact(reason),
+        };
+        let found = self.search(wrench, &scaled, surface, last);
+        if self.torque_noise.is_zero() { found } else { self.either_side(found, &scaled, surface) }
+    }
+
+    /// A wrench that needs no factor, or why it is no contact; `None` of another.
+    fn tame(&self, wrench: &Wrench<T>) -> Option<Result<Scaled<T>, NoContact<T>>> {
+        let (force, torque) = (wrench.force(), wrench.torque());
+        let most_torque = largest(&torque);
+        if !(is_tame(largest(&force)) && (is_tame(most_torque) || most_torque.is_zero())) {
+            return None;
         }
-        self.resolve_extreme(wrench, surface, last)
+        let squared = force.norm_squared();
+        // A NaN may have hidden behind a number.
+        (squared + torque.x + torque.y + torque.z).is_number().then(|| {
+            if squared >= self.least_force * self.least_force {
+                Ok(Scaled { wrench: *wrench, unit: None })
+            } else {
+                Err(NoContact::BelowThreshold { force: squared.root() })
+            }
+        })
     }
 
     /// Tiny, huge, zero, NaN.
     #[cold]
     #[inline(never)]
-    fn resolve_extreme<S: SoftFingerSurface<T>>(
-        &self,
-        wrench: &Wrench<T>,
-        surface: &S,
-        last: Option<&Vector3<T>>,
-    ) -> Resolution<T> {
+    fn scaled(&self, wrench: &Wrench<T>) -> Result<Scaled<T>, NoContact<T>> {
         if !wrench.is_finite() {
-            return Resolution::NoContact(NoContact::NotFinite);
+            return Err(NoContact::NotFinite);
         }
-        let (force, torque) = (length(&wrench.force()), length(&wrench.torque()));
+        let (force, torque) = (rarely_length(&wrench.force()), rarely_length(&wrench.torque()));
         if !(force >= self.least_force) || !(force > T::zero()) {
-            return Resolution::NoContact(if force > T::zero() || torque.is_zero() {
+            return Err(if force > T::zero() || torque.is_zero() {
                 NoContact::BelowThreshold { force }
             } else {
                 NoContact::PureCouple { torque }
             });
         }
         let unit = larger(largest(&wrench.force()), largest(&wrench.torque())).normalising_factor();
-        let scaled = *wrench * unit;
-        let scaled = Scaled { wrench: scaled, unit: Some(unit) };
-        self.settled(wrench, &scaled, surface, last)
-    }
-
-    fn settled<S: SoftFingerSurface<T>>(
-        &self,
-        wrench: &Wrench<T>,
-        scaled: &Scaled<T>,
-        surface: &S,
-        last: Option<&Vector3<T>>,
-    ) -> Resolution<T> {
-        let found = self.search(wrench, scaled, surface, last);
-        if self.torque_noise.is_zero() { found } else { self.either_side(found, scaled, surface) }
+        Ok(Scaled { wrench: *wrench * unit, unit: Some(unit) })
     }
 
     #[inline(never)]
@@ -217,10 +209,12 @@ impl<T: Real> SoftFinger<T> {
     ) -> Resolution<T> {
         let noise = self.torque_noise * scaled.unit.unwrap_or_else(T::one);
         let (force, torque) = (scaled.wrench.force(), scaled.wrench.torque());
-        if !(force.dot(&torque).abs() <= noise * length(&force)) {
+        if !(force.dot(&torque).abs() <= noise * rarely_length(&force)) {
             return found;
         }
-        let Some(first) = place(&found).filter(|_| !is_entered(&scaled.wrench, surface)) else {
+        let Some(first) =
+            place(&found).filter(|_| !met(&scaled.wrench, surface).is_some_and(|met| met.entered))
+        else {
             return found;
         };
         let opposite = Scaled { wrench: mirrored(&scaled.wrench), unit: scaled.unit };
@@ -243,7 +237,7 @@ fn place<T: Real>(resolution: &Resolution<T>) -> Option<Vector3<T>> {
 /// The wrench with the opposite torque along its force.
 fn mirrored<T: Real>(wrench: &Wrench<T>) -> Wrench<T> {
     let (force, torque) = (wrench.force(), wrench.torque());
-    let direction = force / length(&force);
+    let direction = force / rarely_length(&force);
     let along = direction.dot(&torque);
     Wrench::on_fingertip(force, torque - direction * (along + along))
 }
@@ -280,29 +274,30 @@ fn contact_at<T: Real>(wrench: &Wrench<T>, found: &SoftContact<T>, spin_torque: 
     }
 }
 
-/// Whether the line of action meets the active surface where it presses.
-fn is_entered<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -> bool {
-    let mut entered = false;
-    if let Ok(axis) = wrench.line_of_action() {
-        surface.crossings(&axis.line, |crossing| {
-            entered |= crossing.active && axis.line.direction.dot(&crossing.normal) < T::zero();
-        });
-    }
-    entered
+/// What the line of action of a wrench meets.
+struct Met<T: Real> {
+    line: Line<T>,
+    /// Whether it enters the active surface.
+    entered: bool,
+    /// A place where it leaves, and so pulls.
+    left: Option<Vector3<T>>,
+}
+
+/// Compiled once for whoever asks, which few samples do.
+#[cold]
+#[inline(never)]
+fn met<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -> Option<Met<T>> {
+    let line = wrench.line_of_action().ok()?.line;
+    let (entered, left) = surface.entered_and_left(&line);
+    Some(Met { line, entered, left })
 }
 
 /// The line of action misses, or meets the surface where it pulls.
 #[cold]
 fn why_none<T: Real, S: SoftFingerSurface<T>>(wrench: &Wrench<T>, surface: &S) -> NoContact<T> {
-    let Ok(axis) = wrench.line_of_action() else { return NoContact::NotFinite };
-    let mut pulling = None;
-    surface.crossings(&axis.line, |crossing| {
-        if axis.line.direction.dot(&crossing.normal) >= T::zero() {
-            pulling = Some(crossing.point);
-        }
-    });
-    if let Some(point) = pulling {
-        return NoContact::OnlyPulling { point };
+    match met(wrench, surface) {
+        None => NoContact::NotFinite,
+        Some(Met { left: Some(point), .. }) => NoContact::OnlyPulling { point },
+        Some(met) => NoContact::Misses { closest: surface.closest_approach(&met.line) },
     }
-    NoContact::Misses { closest: surface.closest_approach(&axis.line) }
 }

@@ -1,6 +1,6 @@
 //! All soft-finger contacts on a smooth surface.
 
-use fingertip_surfaces::{SmoothSurface, Topology};
+use fingertip_surfaces::{Crossing, SmoothSurface, Topology, rare_crossings};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
@@ -129,7 +129,9 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
     {
         return Found::Contact(state);
     }
-    let entry = line_entries(problem, surface, wrench).into_iter().flatten().next();
+    let presses = |crossing: &Crossing<T>, direction: &Vector3<T>| crossing.normal.dot(direction) < T::zero();
+    let line = wrench.line_of_action().map(|axis| axis.line);
+    let entry = line.ok().and_then(|line| met_at(problem, surface, &line, &presses));
     if entry.is_none() && is_pure_force(&wrench.force(), &wrench.torque()) {
         return Found::Nothing;
     }
@@ -142,11 +144,8 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
     }
     let direction = direction_on_ball(&problem.force, &problem.torque);
     let centre = surface.extent().centre;
-    let mut outer = None;
-    surface.crossings(&Line { point: centre, direction }, |crossing| {
-        if crossing.along > T::zero() {
-            outer = problem.place(problem.inward(&crossing.point));
-        }
+    let outer = met_at(problem, surface, &Line { point: centre, direction }, &|crossing, _| {
+        crossing.along > T::zero()
     });
     if let Some(state) = outer.and_then(|place| problem.on_convex(place)) {
         return Found::Contact(state);
@@ -157,16 +156,30 @@ fn starts_on_convex<T: Real, S: SmoothSurface<T>>(
     let length = squared.root();
     if length > T::zero() {
         let direction = problem.force / length;
-        surface.crossings(&Line { point: centre, direction }, |crossing| {
-            if crossing.normal.dot(&direction) < T::zero() {
-                facing = problem.place(problem.inward(&crossing.point));
-            }
-        });
+        facing = met_at(problem, surface, &Line { point: centre, direction }, &presses);
     }
     match facing.or(entry).and_then(|place| problem.on_convex(place)) {
         Some(state) => Found::Contact(state),
         None => Found::Lost,
     }
+}
+
+/// Where a line meets a convex surface, of its two crossings the one that is asked for. Out of line, for it is asked three
+/// times, and seldom.
+#[inline(never)]
+fn met_at<T: Real, S: SmoothSurface<T>>(
+    problem: &Problem<'_, T, S>,
+    surface: &S,
+    line: &Line<T>,
+    is_asked_for: &dyn Fn(&Crossing<T>, &Vector3<T>) -> bool,
+) -> Option<Place<T>> {
+    let mut found = None;
+    rare_crossings(surface, line, &mut |crossing| {
+        if found.is_none() && is_asked_for(&crossing, &line.direction) {
+            found = Some(crossing.point);
+        }
+    });
+    problem.place(problem.inward(&found?))
 }
 
 /// Where the wrench's line of action enters the surface: exact where there is no spin torque.

@@ -3,6 +3,7 @@
 use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use crate::numeric::moved::{direction_inside, direction_outside, point_inside, point_outside};
 use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::{
     ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
@@ -71,6 +72,26 @@ impl<T: Real, S> Posed<T, S> {
     fn line_in_shape(&self, line: &Line<T>) -> Line<T> {
         Line { point: self.in_shape(&line.point), direction: self.turned_back(&line.direction) }
     }
+
+    /// The same, where few samples go.
+    fn coldly_in_shape(&self, line: &Line<T>) -> Line<T> {
+        let pose = &self.sensor_from_shape;
+        Line { point: point_inside(pose, &line.point), direction: direction_inside(pose, &line.direction) }
+    }
+
+    fn placed(&self, found: ClosestApproach<T>) -> ClosestApproach<T> {
+        let pose = &self.sensor_from_shape;
+        let (point, normal) = (point_outside(pose, &found.point), direction_outside(pose, &found.normal));
+        ClosestApproach { point, normal, ..found }
+    }
+}
+
+impl<T: Real, S: ActiveSurface<T>> Posed<T, S> {
+    /// The normal of the shape in its own frame, out of line: few samples ask, and from several places.
+    #[inline(never)]
+    fn normal_inside(&self, inside: &Vector3<T>) -> Vector3<T> {
+        self.surface.normal(inside)
+    }
 }
 
 impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
@@ -83,18 +104,25 @@ impl<T: Real, S: ActiveSurface<T>> ActiveSurface<T> for Posed<T, S> {
     }
 
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
-        let found = self.surface.closest_approach(&self.line_in_shape(line))?;
-        let pose = &self.sensor_from_shape;
-        Some(ClosestApproach {
-            point: pose.transform_point(&found.point),
-            normal: pose.rotate(&found.normal),
-            ..found
-        })
+        self.surface.closest_approach(&self.coldly_in_shape(line)).map(|found| self.placed(found))
+    }
+
+    #[inline(always)]
+    fn entry_or_closest(&self, line: &Line<T>) -> (bool, Option<ClosestApproach<T>>) {
+        let (enters, found) = self.surface.entry_or_closest(&self.coldly_in_shape(line));
+        (enters, found.map(|found| self.placed(found)))
+    }
+
+    #[inline(always)]
+    fn entered_and_left(&self, line: &Line<T>) -> (bool, Option<Vector3<T>>) {
+        let (entered, left) = self.surface.entered_and_left(&self.coldly_in_shape(line));
+        (entered, left.map(|point| point_outside(&self.sensor_from_shape, &point)))
     }
 
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        self.sensor_from_shape.rotate(&self.surface.normal(&self.in_shape(point)))
+        let pose = &self.sensor_from_shape;
+        direction_outside(pose, &self.normal_inside(&point_inside(pose, point)))
     }
 
     #[inline(always)]
@@ -125,21 +153,28 @@ impl<T: Real, S: ActiveSurface<T>, M: Shortcuts<T>> Shortcuts<T> for InPlace<'_,
     /// That of the point in the frame of the shape, and what rounding took of it on the way there, along the
     /// normal.
     fn surface_residual(&self, point: &Vector3<T>) -> T {
-        let inside = self.posed.in_shape(point);
         let pose = self.posed.sensor_from_shape();
+        let inside = point_inside(pose, point);
         let away = difference(point, &pose.origin());
-        let left = |k: usize| {
-            let axis = pose.rotation().column(k).into_owned();
-            dot_with(away, &axis).minus(Twofold::new(inside[k])).value()
-        };
-        let left = Vector3::new(left(0), left(1), left(2));
-        let surface = &self.posed.surface;
-        surface.shortcuts().surface_residual(&inside) + surface.normal(&inside).dot(&left)
+        let [x, y, z] = pose.rotation().data.0;
+        let left = Vector3::new(
+            left_along(&away, x, inside.x),
+            left_along(&away, y, inside.y),
+            left_along(&away, z, inside.z),
+        );
+        let residual = self.posed.surface.shortcuts().surface_residual(&inside);
+        residual + self.posed.normal_inside(&inside).dot(&left)
     }
 
     fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         self.moved.entry_in_double(line, near)
     }
+}
+
+/// What is left of a coordinate of a vector along an axis.
+#[inline(never)]
+fn left_along<T: Real>(vector: &[Twofold<T>; 3], axis: [T; 3], coordinate: T) -> T {
+    dot_with(*vector, &Vector3::from(axis)).minus(Twofold::new(coordinate)).value()
 }
 
 impl<T: Real, S: SignedDistance<T>> SignedDistance<T> for Posed<T, S> {
@@ -248,5 +283,70 @@ mod files {
                 .map_err(Error::custom)?;
             Ok(Self::new(surface, pose))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fingertip_wrench::{Line, RigidTransform};
+    use nalgebra::Vector3;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    use super::Posed;
+    use crate::{ActiveSurface, Capsule, Cone, Crossing, Paraboloid};
+
+    /// What a pose answers at once is what its own crossings say.
+    fn told_as_by_crossings(
+        surface: &impl ActiveSurface<f64>,
+        line: &Line<f64>,
+        is_closed: bool,
+    ) -> [bool; 2] {
+        let mut all: Vec<Crossing<f64>> = Vec::new();
+        surface.crossings(line, |crossing| all.push(crossing));
+        let along = |crossing: &Crossing<f64>| crossing.normal.dot(&line.direction);
+        // Where a line is tangent rounding decides.
+        if all.iter().any(|crossing| along(crossing).abs() < 1e-9) {
+            return [false; 2];
+        }
+        let (entered, left) = surface.entered_and_left(line);
+        assert_eq!(entered, all.iter().any(|crossing| crossing.active && along(crossing) < 0.0), "{line:?}");
+        let last = all.iter().rfind(|crossing| along(crossing) >= 0.0).map(|crossing| crossing.point);
+        assert_eq!(left.is_some(), last.is_some(), "{line:?}");
+        let off = left.zip(last).map_or(0.0, |(left, last)| (left - last).amax());
+        assert!(off <= 1e-12 * last.map_or(1.0, |last| 1.0 + last.amax()), "{line:?}");
+        if is_closed {
+            let (enters, found) = surface.entry_or_closest(line);
+            let closest = all.first().map_or_else(
+                || surface.closest_approach(line).map(|closest| (closest.gap, closest.point, closest.normal)),
+                |first| Some((0.0, first.point, first.normal)),
+            );
+            let (found, closest) = (found.unwrap(), closest.unwrap());
+            assert_eq!(enters, !all.is_empty());
+            assert_eq!(found.gap, closest.0);
+            assert!((found.point - closest.1).amax() < 1e-12 && (found.normal - closest.2).amax() < 1e-12);
+        }
+        [entered, left.is_some()]
+    }
+
+    #[test]
+    fn a_pose_answers_at_once_what_its_crossings_say() {
+        let mut random = Pcg64Mcg::seed_from_u64(31);
+        let mut seen = [0; 3];
+        for _ in 0..2000 {
+            let mut any = || Vector3::from_fn(|_, _| random.random_range(-1.0_f64..1.0));
+            let pose: RigidTransform<f64> = RigidTransform::from_axis_angle(any() * 3.0, any()).unwrap();
+            let line = Line { point: any() * 2.0, direction: any().normalize() };
+            let capsule = Capsule::new(Vector3::zeros(), any(), 0.5, 0.7).unwrap();
+            let cone = Cone::new(any(), any(), 0.4).unwrap().with_depth(1.5).unwrap();
+            let dome = Paraboloid::new([0.5, 0.8]).unwrap().with_depth(0.6).unwrap();
+            let [entered, left] = told_as_by_crossings(&Posed::new(capsule, pose), &line, true);
+            told_as_by_crossings(&Posed::new(cone, pose), &line, false);
+            told_as_by_crossings(&Posed::new(&dome, pose), &line, false);
+            for (count, is_so) in seen.iter_mut().zip([entered, left, !entered && !left]) {
+                *count += u32::from(is_so);
+            }
+        }
+        assert!(seen.iter().all(|count| *count > 200), "{seen:?}");
     }
 }

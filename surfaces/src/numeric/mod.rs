@@ -5,6 +5,7 @@ pub(crate) mod ellipse;
 pub mod fine_pose;
 pub(crate) mod interval;
 pub mod mixed_precision;
+pub mod moved;
 pub(crate) mod powers;
 pub mod quadratic;
 pub(crate) mod range;

@@ -25,16 +25,19 @@ pub(crate) fn closest_approach<T: Real>(
     let p = if is_finite(&p) { p } else { Vector3::zeros() };
     let second = unit_or(&line.direction.cross(&p), || any_perpendicular(&line.direction));
     let first = second.cross(&line.direction);
-    let towards = |angle: T| {
-        let (sin, cos) = (angle.sine(), angle.cosine());
+    // By the tangent of half the angle from the origin's direction, from −1 to 1: cosine and sine are
+    // fractions of it, to a few rounding errors.
+    let towards = |tangent: T| {
+        let inverse = T::one() / (T::one() + tangent * tangent);
+        let (sin, cos) =
+            ((tangent + tangent) * inverse, (T::one() - tangent) * (T::one() + tangent) * inverse);
         (first * cos + second * sin, second * cos - first * sin)
     };
-    let rises = |angle: T| {
-        let (n, turn) = towards(angle);
+    let rises = |tangent: T| {
+        let (n, turn) = towards(tangent);
         turn.dot(&(p - support(&n).1)) > T::zero()
     };
-    let angle = bisected(-T::frac_pi_2(), T::frac_pi_2(), rises);
-    let (normal, _) = towards(angle);
+    let (normal, _) = towards(bisected(-T::one(), T::one(), rises));
     let (height, point) = support(&normal);
     let gap = (normal.dot(&p) - height).max(T::zero()).min(T::GREATEST);
     // Where a flat or an edge is parallel to the line's shadow, the support point is one of many;

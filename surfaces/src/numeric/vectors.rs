@@ -44,12 +44,35 @@ pub fn length<T: Real>(v: &Vector3<T>) -> T {
     (v * scale).norm_squared().root() / scale
 }
 
+/// The same, out of line: for code that few samples take, of which a microcontroller should hold little.
+#[cold]
+#[inline(never)]
+pub fn rarely_length<T: Real>(v: &Vector3<T>) -> T {
+    length(v)
+}
+
 /// `√(a² + b²)` for numbers over the whole range of the type.
 #[inline]
 pub fn hypotenuse<T: Real>(a: T, b: T) -> T {
     let scale = a.abs().max(b.abs()).normalising_factor();
     let (a, b) = (a * scale, b * scale);
     (a * a + b * b).root() / scale
+}
+
+/// Cosine and sine of half the angle of the vector `(x, y)`, which is up to π; 1 and 0 of a vector without direction.
+///
+/// With `c = |x|/r` the half nearer to the x axis is `√((1 + c)/2)`, of which nothing cancels, and the other
+/// `|y|/(2r)` over that: each is off by a few rounding errors of itself, for no angle is formed.
+#[inline]
+pub fn half_angle<T: Real>(x: T, y: T) -> (T, T) {
+    let length = hypotenuse(x, y);
+    if !(length > T::zero() && length.is_number()) {
+        return (T::one(), T::zero());
+    }
+    let half = T::literal(0.5);
+    let near = (half + x.abs() / length * half).root();
+    let far = y.abs() / length * half / near;
+    if x >= T::zero() { (near, far.copysign(y)) } else { (far, near.copysign(y)) }
 }
 
 /// The unit vector along `v`; `fallback` if `v` is zero or not finite.
@@ -123,7 +146,7 @@ pub fn is_finite<T: Real>(v: &Vector3<T>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{hypotenuse, length, tangents, unit_or};
+    use super::{half_angle, hypotenuse, length, tangents, unit_or};
     use nalgebra::Vector3;
     use proptest::prelude::*;
 
@@ -151,6 +174,20 @@ mod tests {
         }
 
         #[test]
+        fn halves_of_angles_agree_with_double_precision(
+            x in -1.0_f32..1.0, y in -1.0_f32..1.0, powers in any::<[i8; 2]>()
+        ) {
+            let [x, y] = [x * 2_f32.powi(powers[0].into()), y * 2_f32.powi(powers[1].into())];
+            let half = f64::from(y).atan2(x.into()) * 0.5;
+            let (cos, sin) = half_angle(x, y);
+            for (found, exact) in [(cos, half.cos()), (sin, half.sin())] {
+                // Of the cosine of a right angle, and of subnormal ratios, digits are lost.
+                let allowed = 6.0 * f64::from(f32::EPSILON) * exact.abs() + 1e-16;
+                prop_assert!((f64::from(found) - exact).abs() <= allowed, "{x} {y}: {cos} {sin}");
+            }
+        }
+
+        #[test]
         fn lengths_agree_with_double_precision(bits in any::<[u32; 3]>()) {
             let v = Vector3::from(bits.map(f32::from_bits));
             prop_assume!(v.iter().all(|x| x.is_finite()));
@@ -160,6 +197,19 @@ mod tests {
             prop_assert!((f64::from(length(&v)) - exact).abs() <= allowed);
             let plane = f64::from(v.x).hypot(f64::from(v.y));
             prop_assert!((f64::from(hypotenuse(v.x, v.y)) - plane).abs() <= plane * 3e-7 + 1e-44);
+        }
+    }
+
+    #[test]
+    fn halves_of_right_angles_and_of_none() {
+        assert_eq!(half_angle(2.0, 0.0), (1.0, 0.0));
+        assert_eq!(half_angle(-2.0, 0.0), (0.0, 1.0));
+        assert_eq!(half_angle(-2.0, -0.0), (0.0, -1.0));
+        let eighth = 0.5_f32.sqrt();
+        assert_eq!(half_angle(0.0, 3.0_f32), (eighth, eighth));
+        assert_eq!(half_angle(0.0, -1e-45_f32), (eighth, -eighth));
+        for nothing in [[0.0, 0.0], [f32::NAN, 1.0], [1.0, f32::INFINITY]] {
+            assert_eq!(half_angle(nothing[0], nothing[1]), (1.0, 0.0));
         }
     }
 }

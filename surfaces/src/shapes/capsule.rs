@@ -94,6 +94,13 @@ impl<T: Real> Capsule<T> {
         Capsule::new(wide(&self.centre()), wide(&self.axis()), radius, half).ok()
     }
 
+    /// Its side, going on for ever.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn without_ends(&self) -> Self {
+        Self { half_length: T::GREATEST, ..*self }
+    }
+
     /// The vector to a point from the point of the segment closest to it.
     #[inline]
     fn off_segment(&self, from_centre: &Vector3<T>) -> Vector3<T> {
@@ -152,6 +159,9 @@ impl<T: Real> ActiveSurface<T> for Capsule<T> {
     #[inline]
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         let outward = self.off_segment(&(point - self.axis.origin));
+        // Without ends it is as exact as that of a cylinder: across the axis even where most has cancelled.
+        let has_ends = self.half_length < T::GREATEST;
+        let outward = if has_ends { outward } else { self.axis.part_across(&outward) };
         unit_or(&outward, || self.axis.outward(&Vector3::zeros()))
     }
 
@@ -195,7 +205,8 @@ impl<T: Real> SignedDistance<T> for Capsule<T> {
 
     fn signed_distance(&self, point: &Vector3<T>) -> Distance<T> {
         let outward = self.off_segment(&(point - self.axis.origin));
-        Distance { distance: length(&outward) - self.radius, normal: self.normal(point) }
+        let normal = unit_or(&outward, || self.axis.outward(&Vector3::zeros()));
+        Distance { distance: length(&outward) - self.radius, normal }
     }
 
     fn bounds(&self) -> (Vector3<T>, T) {

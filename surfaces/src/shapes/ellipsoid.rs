@@ -5,7 +5,9 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::ellipse::closest_point;
 use crate::numeric::twofold::{Twofold, dot};
-use crate::numeric::vectors::{any_perpendicular, foot, hypotenuse, is_finite, length, unit_or, wide};
+use crate::numeric::vectors::{
+    any_perpendicular, foot, half_angle, hypotenuse, is_finite, length, unit_or, wide,
+};
 use crate::shortcuts::entry_near;
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
@@ -151,13 +153,12 @@ impl<T: Real> ActiveSurface<T> for Ellipsoid<T> {
         let scale = self.semi_axes.max();
         let stretched = |v: &Vector3<T>| v.component_mul(&(self.semi_axes / scale));
         // The shadow is the ellipse with matrix Uᵀ A² U, for any two unit vectors U across the line;
-        // a rotation by `angle` makes it diagonal.
+        // a rotation by half the angle of `(m₁₁ − m₂₂, 2 m₁₂)` makes it diagonal.
         let first = any_perpendicular(&line.direction);
         let second = line.direction.cross(&first);
         let (s1, s2) = (stretched(&first), stretched(&second));
         let (m11, m12, m22) = (s1.norm_squared(), s1.dot(&s2), s2.norm_squared());
-        let angle = (m12 + m12).arctangent2(m11 - m22) * T::literal(0.5);
-        let (sin, cos) = (angle.sine(), angle.cosine());
+        let (cos, sin) = half_angle(m11 - m22, m12 + m12);
         let axes = [first * cos + second * sin, second * cos - first * sin];
         let [u, v] = axes;
         let lengths = [length(&stretched(&u)) * scale, length(&stretched(&v)) * scale];

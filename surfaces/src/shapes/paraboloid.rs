@@ -3,6 +3,7 @@
 use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix3, Vector3};
 
+use crate::active_surface::{entered_and_left, rare_crossings};
 use crate::numeric::quadratic::roots;
 use crate::numeric::support;
 use crate::numeric::twofold::Twofold;
@@ -111,6 +112,12 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
                 });
             }
         }
+    }
+
+    /// By the crossings that a soft finger asks for on its way, too.
+    #[inline(always)]
+    fn entered_and_left(&self, line: &Line<T>) -> (bool, Option<Vector3<T>>) {
+        entered_and_left(line, |visit| rare_crossings(self, line, visit))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
