@@ -237,16 +237,16 @@ fn weighted(
     let torque = |weights: &Vector6<f64>, weight: &Weight| {
         Centre::of(poses, axis, weight, &weights.fixed_rows::<3>(3).into_owned())
     };
-    let (mut weights, mut uncertain) = (Vector6::from_element(1.0), Vector6::zeros());
+    let (mut weights, mut doubts) = (Vector6::from_element(1.0), Vec::new());
     let mut weight = force(&weights)?;
     weight.checked(down, gravity)?;
     let mut centre = torque(&weights, &weight)?;
-    let mut sure = Sureness::of(poses, &weight, &centre, &weights, &uncertain);
+    let mut sure = Sureness::of(poses, &weight, &centre, &weights, &doubts);
     for _ in 0..REWEIGHTED {
-        (weights, uncertain) = sure.weights();
+        (weights, doubts) = sure.weights();
         weight = force(&weights)?;
         centre = torque(&weights, &weight)?;
-        sure = Sureness::of(poses, &weight, &centre, &weights, &uncertain);
+        sure = Sureness::of(poses, &weight, &centre, &weights, &doubts);
     }
     Ok((weight, centre, sure))
 }

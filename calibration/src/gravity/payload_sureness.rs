@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 
 use super::payload_parts::{Centre, Weight};
-use super::pose_noise::{Besides, PoseNoise};
+use super::pose_noise::{Besides, Doubt, PoseNoise};
 use super::poses::Pose;
 
 /// How sure weight and centre are.
@@ -17,14 +17,13 @@ pub(super) struct Sureness {
 }
 
 impl Sureness {
-    /// Of fits in which the components of forces and torques counted as `weights` say, whose logarithms have the variances
-    /// `uncertain`.
+    /// Of fits in which the components of forces and torques counted as `weights` say, with these doubts.
     pub(super) fn of(
         poses: &[Pose],
         weight: &Weight,
         centre: &Centre,
         weights: &Vector6<f64>,
-        uncertain: &Vector6<f64>,
+        doubts: &[Doubt],
     ) -> Self {
         let unknowns = weight.basis.ncols();
         // By how much the torques would change with the weight.
@@ -53,26 +52,20 @@ impl Sureness {
             Some(&change),
         );
         let both = joined(&by_force, &carried(&by_force, &by_torque), &by_torque, None);
-        let besides = (0..6)
-            .filter(|component| uncertain[*component] > 0.0)
-            .map(|component| {
-                let nothing = |of: &DMatrix<f64>| DMatrix::zeros(of.nrows(), of.ncols());
-                let changes = if component < 3 {
-                    let by_force = moved(&weight.design, &by_force, component);
-                    joined(&by_force, &carried(&by_force, &by_torque), &nothing(&by_torque), None)
-                } else {
-                    let by_torque = moved(&centre.arms, &by_torque, component - 3);
-                    joined(&nothing(&by_force), &carried(&by_force, &by_torque), &by_torque, None)
-                };
-                Besides { changes, variance: uncertain[component] }
-            })
-            .collect();
+        let besides = doubts.iter().map(|doubt| {
+            let along = |first: usize| doubt.direction.fixed_rows::<3>(first).into_owned();
+            let of_force = moved(&weight.design, &by_force, &along(0));
+            let of_torque = moved(&centre.arms, &by_torque, &along(3));
+            let across = carried(&of_force, &by_torque) + carried(&by_force, &of_torque);
+            Besides { changes: joined(&of_force, &across, &of_torque, None), variance: doubt.variance }
+        });
+        let besides = besides.collect();
         let noise = PoseNoise::new(&left, &slopes, &both);
         Self { noise, besides, basis: weight.basis.clone(), span: centre.span.clone() }
     }
 
-    /// What each component should count, and the variance of the logarithm of that.
-    pub(super) fn weights(&self) -> (Vector6<f64>, Vector6<f64>) {
+    /// What each component should count, and what is not sure of that.
+    pub(super) fn weights(&self) -> (Vector6<f64>, Vec<Doubt>) {
         self.noise.weights()
     }
 
@@ -113,12 +106,11 @@ fn moves(design: &DMatrix<f64>, inverse_gram: &DMatrix<f64>, weights: &Vector3<f
     moves
 }
 
-/// The change of these moves P with the logarithm of the weight of one component: `P_a − P Xᵀ P_a`, with the rows of P
-/// that are of the component in `P_a`.
-fn moved(design: &DMatrix<f64>, moves: &DMatrix<f64>, component: usize) -> DMatrix<f64> {
+/// The change of these moves P as the logarithms of the weights change along a direction: `P_u − P Xᵀ P_u`, where the rows
+/// of `P_u` are those of P times the change of their component.
+fn moved(design: &DMatrix<f64>, moves: &DMatrix<f64>, direction: &Vector3<f64>) -> DMatrix<f64> {
     let mut own = moves.clone();
-    let others = own.row_iter_mut().enumerate().filter(|(row, _)| row % 3 != component);
-    others.for_each(|(_, mut by)| by.fill(0.0));
+    own.row_iter_mut().enumerate().for_each(|(row, mut by)| by *= direction[row % 3]);
     &own - moves * design.tr_mul(&own)
 }
 

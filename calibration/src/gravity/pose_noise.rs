@@ -4,10 +4,10 @@ use nalgebra::{DMatrix, DVector, Matrix6, SymmetricEigen, Vector6};
 
 use super::quadratic::{Symmetric, variance_of_form};
 
-/// By how much the weight of a component is off the mean of its kind at most, as a logarithm: a deviation of ten times.
-const GREATEST_LOG: f64 = 4.6;
-/// Squares of two degrees of freedom that are passed by chance once in twenty times, in their mean.
-const CHANCE_OF_TWO: f64 = 3.0;
+/// The greatest step from the variance of one component to the next, as a logarithm: a deviation of ten times.
+const GREATEST_STEP: f64 = 4.6;
+/// A square, in its mean, that is passed by chance once in twenty times.
+const GREATEST_BY_CHANCE: f64 = 3.84;
 /// The least part of a component's noise that is not in the other components, as a variance.
 const LEAST_OWN: f64 = 0.05;
 
@@ -68,28 +68,42 @@ impl PoseNoise {
         Self { covariance, unbiased, freedom, slopes, moves, units }
     }
 
-    /// What each component should count in a fit, by its noise beside that of the two others of its kind; and the variance of
-    /// the logarithm of that.
+    /// What each component should count in a fit, by its noise beside that of the two others of its kind; and what is not
+    /// sure of that.
     ///
-    /// Few poses tell each variance but roughly. So the logarithms of the three are drawn together by the share of their
-    /// spread that chance alone may give them, each with 2/ν for ν degrees of freedom (as James & Stein 1961): components
-    /// that are alike count alike, those that are clearly unlike nearly by what was found.
-    pub(super) fn weights(&self) -> (Vector6<f64>, Vector6<f64>) {
-        let (mut weights, mut uncertain) = (Vector6::from_element(1.0), Vector6::zeros());
+    /// Few poses tell each variance but roughly: with ν degrees of freedom its logarithm has the variance 2/ν. So of the three
+    /// logarithms, in order, each step to the next is drawn together by the share of it that chance alone may give (as James &
+    /// Stein 1961): components that are alike count alike, those that are clearly unlike nearly by what was found.
+    pub(super) fn weights(&self) -> (Vector6<f64>, Vec<Doubt>) {
+        let (mut weights, mut doubts) = (Vector6::from_element(1.0), Vec::new());
         let variances = self.covariance.diagonal().component_mul(&self.units).component_mul(&self.units);
         for first in [0, 3] {
-            let logs = variances.fixed_rows::<3>(first).map(f64::ln);
-            let off = logs.add_scalar(-logs.mean());
-            let by_chance = self.freedom.fixed_rows::<3>(first).map(|freedom| 2.0 / freedom);
-            let kept = (1.0 - CHANCE_OF_TWO * 2.0 * by_chance.mean() / off.norm_squared()).clamp(0.0, 1.0);
-            let found = off.map(|off| (-kept * off).clamp(-GREATEST_LOG, GREATEST_LOG).exp());
-            // Where nothing is left of a component, nothing is known of its noise.
-            if found.iter().all(|weight| weight.is_finite()) {
-                weights.fixed_rows_mut::<3>(first).copy_from(&found);
-                uncertain.fixed_rows_mut::<3>(first).copy_from(&(by_chance * (kept * kept)));
+            let mut order = [first, first + 1, first + 2];
+            order.sort_by(|a, b| variances[*a].total_cmp(&variances[*b]));
+            let mut logs = Vector6::zeros();
+            for (quiet, noisy) in [(1, 2), (2, 1)] {
+                // So many of the three are on the quiet side of the step.
+                let (below, above) = (order[quiet - 1], order[quiet]);
+                let step = (variances[above] / variances[below]).ln().min(GREATEST_STEP);
+                let by_chance = 2.0 / self.freedom[below] + 2.0 / self.freedom[above];
+                let kept = 1.0 - GREATEST_BY_CHANCE * by_chance / (step * step);
+                // Where nothing is left of a component, nothing is known of its noise.
+                if !(kept > 0.0 && step.is_finite()) {
+                    continue;
+                }
+                let mut direction = Vector6::zeros();
+                for (place, component) in order.into_iter().enumerate() {
+                    direction[component] =
+                        if place < quiet { f64::from(noisy) / 3.0 } else { -(quiet as f64) / 3.0 };
+                }
+                logs += direction * (kept * step);
+                doubts.push(Doubt { direction, variance: by_chance * kept * kept });
+            }
+            for component in order {
+                weights[component] = logs[component].exp();
             }
         }
-        (weights, uncertain)
+        (weights, doubts)
     }
 
     /// Standard deviation of a combination of the parameters, and the degrees of freedom behind it: `2 v²/Var(v)` of its
@@ -115,12 +129,20 @@ impl PoseNoise {
     }
 }
 
-/// How the fit moves with the weight of one component: what that adds to the variances, twice as by itself, since the weights
+/// What is not sure of the weights of components.
+pub(super) struct Doubt {
+    /// By how much the logarithm of each weight would change.
+    pub(super) direction: Vector6<f64>,
+    /// Variance of the factor of that.
+    pub(super) variance: f64,
+}
+
+/// How the fit moves with the weights of components: what that adds to the variances, twice as by itself, since the weights
 /// are those for which the fit seems surest (Kackar & Harville 1984; Kenward & Roger 1997).
 pub(super) struct Besides {
-    /// Changes of the derivatives of the parameters by the wrenches, by the logarithm of the weight.
+    /// Changes of the derivatives of the parameters by the wrenches, along the direction of a doubt.
     pub(super) changes: Vec<DMatrix<f64>>,
-    /// Variance of that logarithm.
+    /// Variance of the factor of that.
     pub(super) variance: f64,
 }
 
@@ -185,7 +207,8 @@ mod tests {
             assert!((found / expected - 1.0).abs() < 1e-12, "{component}: {found} {expected}");
         }
         // Nothing says that any counts more than others.
-        assert_eq!(noise.weights(), (Vector6::from_element(1.0), Vector6::zeros()));
+        let (weights, doubts) = noise.weights();
+        assert!(weights == Vector6::from_element(1.0) && doubts.is_empty(), "{weights}");
         // The parameter has the noise of a force, and the degrees of freedom of the two that are left.
         let (deviation, freedom) = noise.of(&DVector::from_element(1, 1.0), &[]);
         assert!((deviation - force.sqrt()).abs() < 1e-12, "{deviation}");
@@ -272,13 +295,16 @@ mod tests {
         let left: Vec<_> = (0..60)
             .map(|i| Vector6::from_fn(|a, _| if a == 1 { 10.0 * error(i, a) } else { error(i, a) }))
             .collect();
-        let (weights, uncertain) = PoseNoise::new(&left, &nothing, &nothing).weights();
+        let (weights, doubts) = PoseNoise::new(&left, &nothing, &nothing).weights();
         for (a, weight) in weights.iter().enumerate() {
             // The mean of three logarithms is that of the noise of 10^(2/3).
             let expected = if a == 1 { 10_f64.powf(-4.0 / 3.0) } else { 10_f64.powf(2.0 / 3.0) };
             let expected = if a < 3 { expected } else { 1.0 };
             assert!((weight / expected - 1.0).abs() < 0.2, "{a}: {weight} {expected}");
         }
-        assert!((uncertain[0] * 30.0 - 1.0).abs() < 0.1 && uncertain[4] < 0.1 / 30.0, "{uncertain}");
+        // One step, between the two quiet ones and the other, of sixty degrees of freedom on each side.
+        assert_eq!(doubts.len(), 1);
+        assert!((doubts[0].direction - Vector6::new(1.0, -2.0, 1.0, 0.0, 0.0, 0.0) / 3.0).amax() < 1e-12);
+        assert!(doubts[0].variance < 4.0 / 60.0 && doubts[0].variance > 3.0 / 60.0, "{}", doubts[0].variance);
     }
 }
