@@ -12,7 +12,7 @@ use crate::fit::least_squares;
 use crate::linear::Singular;
 
 /// How often the weights of the components are taken from what the fit before leaves.
-const REWEIGHTED: usize = 2;
+const REWEIGHTED: usize = 3;
 
 /// What is known of gravity and of the body.
 ///
