@@ -6,8 +6,9 @@ use super::quadratic::{Symmetric, variance_of_form};
 
 /// The greatest step from the variance of one component to the next, as a logarithm: a deviation of ten times.
 const GREATEST_STEP: f64 = 4.6;
-/// A square, in its mean, that is passed by chance once in twenty times.
-const GREATEST_BY_CHANCE: f64 = 3.84;
+/// So much of the square of a step is laid to chance, in its mean: by trials, between unlike components that count alike and
+/// alike ones that do not.
+const BY_CHANCE: f64 = 2.0;
 /// The least part of a component's noise that is not in the other components, as a variance.
 const LEAST_OWN: f64 = 0.05;
 
@@ -86,7 +87,7 @@ impl PoseNoise {
                 let (below, above) = (order[quiet - 1], order[quiet]);
                 let step = (variances[above] / variances[below]).ln().min(GREATEST_STEP);
                 let by_chance = 2.0 / self.freedom[below] + 2.0 / self.freedom[above];
-                let kept = 1.0 - GREATEST_BY_CHANCE * by_chance / (step * step);
+                let kept = 1.0 - BY_CHANCE * by_chance / (step * step);
                 // Where nothing is left of a component, nothing is known of its noise.
                 if !(kept > 0.0 && step.is_finite()) {
                     continue;

@@ -38,8 +38,8 @@ fn of_payloads(trials: usize) {
     let random = &mut Pcg64Mcg::seed_from_u64(321);
     for (name, root) in noises() {
         // Eight poses say too little of how unlike components are.
-        let fewest = if name == "unequal" { 12 } else { 8 };
-        for (count, down) in [(fewest, Some(-Vector3::z())), (12, None), (30, Some(-Vector3::z()))] {
+        let (few, more) = if name == "unequal" { (16, 20) } else { (8, 12) };
+        for (count, down) in [(few, Some(-Vector3::z())), (more, None), (30, Some(-Vector3::z()))] {
             let turns: Vec<_> = (0..count).map(|_| turn(random)).collect();
             let weight = if down.is_some() { -3.0 * Vector3::z() } else { Vector3::new(0.6, 0.9, -2.8) };
             let options = PayloadOptions { down, ..PayloadOptions::default() };
