@@ -5,8 +5,10 @@ mod frames;
 mod orientation;
 mod payload;
 mod payload_parts;
+mod payload_sureness;
 mod pose_noise;
 mod poses;
+mod quadratic;
 
 pub use error::PayloadError;
 pub use frames::{FrameTrial, Frames, try_frames};

@@ -1,14 +1,18 @@
 //! Mass, centre of mass and zero from the weight of what the sensor carries.
 
 use fingertip_wrench::units::STANDARD_GRAVITY;
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3, Vector6};
 
 use super::error::PayloadError;
-use super::payload_parts::{Centre, Sureness, Weight};
+use super::payload_parts::{Centre, Weight};
+use super::payload_sureness::Sureness;
 use super::poses::{Pose, turn, unit};
 use crate::file::{FileError, PayloadFile, PayloadQuality, Verdict};
-use crate::fit::{Fit, least_squares};
+use crate::fit::least_squares;
 use crate::linear::Singular;
+
+/// How often the weights of the components are taken from what the fit before leaves.
+const REWEIGHTED: usize = 3;
 
 /// What is known of gravity and of the body.
 ///
@@ -163,7 +167,7 @@ pub struct PayloadFit {
 /// Fits weight, centre of mass and zero to readings in several poses: `f = Rᵀ g + b_f`,
 /// `m = c × Rᵀ g + b_m`, two linear least-squares problems (`docs/theory/calibration.md#gravity`). The second
 /// has the weight of the first among its regressors: what is uncertain of it is carried over to the centre of
-/// mass and the torque at rest, to first order.
+/// mass and the torque at rest, to first order. Each component of forces and of torques counts by the noise that it shows.
 ///
 /// With gravity's direction given, two poses could do; four generic poses are the least in general, and
 /// eight or more are advised.
@@ -179,10 +183,7 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
         Some(axis) => Some(unit(&axis).ok_or(PayloadError::NoDirection("axis of the centre of mass"))?),
         None => None,
     };
-    let weight = Weight::of(poses, down)?;
-    weight.checked(down, options.gravity)?;
-    let centre = Centre::of(poses, axis, &weight)?;
-    let sure = Sureness::of(poses, &weight, &centre)?;
+    let (weight, centre, sure) = weighted(poses, down, axis, options.gravity)?;
     let direction = unit(&weight.load).unwrap_or_else(Vector3::zeros);
     let (weight_deviation, weight_freedom) = sure.along(&direction);
     let across =
@@ -221,18 +222,43 @@ pub fn fit_payload(poses: &[Pose], options: &PayloadOptions) -> Result<PayloadFi
         rms_if_in_base: f64::INFINITY,
         warnings: Vec::new(),
     };
-    result.rate(poses, &weight.design, &weight.fit);
+    result.rate(poses, &weight.design);
     Ok(result)
+}
+
+/// The fits, in which at last every component counts by its noise (feasible generalised least squares).
+fn weighted(
+    poses: &[Pose],
+    down: Option<Vector3<f64>>,
+    axis: Option<Vector3<f64>>,
+    gravity: f64,
+) -> Result<(Weight, Centre, Sureness), PayloadError> {
+    let force = |weights: &Vector6<f64>| Weight::of(poses, down, &weights.fixed_rows::<3>(0).into_owned());
+    let torque = |weights: &Vector6<f64>, weight: &Weight| {
+        Centre::of(poses, axis, weight, &weights.fixed_rows::<3>(3).into_owned())
+    };
+    let (mut weights, mut doubts) = (Vector6::from_element(1.0), Vec::new());
+    let mut weight = force(&weights)?;
+    weight.checked(down, gravity)?;
+    let mut centre = torque(&weights, &weight)?;
+    let mut sure = Sureness::of(poses, &weight, &centre, &weights, &doubts);
+    for _ in 0..REWEIGHTED {
+        (weights, doubts) = sure.weights();
+        weight = force(&weights)?;
+        centre = torque(&weights, &weight)?;
+        sure = Sureness::of(poses, &weight, &centre, &weights, &doubts);
+    }
+    Ok((weight, centre, sure))
 }
 
 impl PayloadFit {
     /// What the sensor would read in a pose.
     #[must_use]
-    pub fn reading(&self, base_from_sensor: &Matrix3<f64>) -> nalgebra::Vector6<f64> {
+    pub fn reading(&self, base_from_sensor: &Matrix3<f64>) -> Vector6<f64> {
         let pull = base_from_sensor.transpose() * self.weight;
         let force = pull + self.force_bias;
         let torque = self.centre_of_mass.cross(&pull) + self.torque_bias;
-        nalgebra::Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
+        Vector6::new(force.x, force.y, force.z, torque.x, torque.y, torque.z)
     }
 
     /// As a payload file that says from how many poses it was fitted.
@@ -275,7 +301,7 @@ impl PayloadFit {
         }
     }
 
-    fn rate(&mut self, poses: &[Pose], design: &DMatrix<f64>, fit: &Fit) {
+    fn rate(&mut self, poses: &[Pose], design: &DMatrix<f64>) {
         let count = poses.len().max(1) as f64;
         for pose in poses {
             let left = pose.wrench - self.reading(&pose.base_from_sensor);
@@ -296,7 +322,7 @@ impl PayloadFit {
             let left = &other - design * swapped.coefficients;
             self.rms_if_in_base = (left.norm_squared() / left.len().max(1) as f64).sqrt();
         }
-        let rms = fit.residual_covariance[(0, 0)].sqrt();
+        let rms = (self.rms.iter().take(3).map(|rms| rms * rms).sum::<f64>() / 3.0).sqrt();
         if self.rms_if_in_base * 3.0 < rms {
             self.warnings.push(format!(
                 "frames seem to be mixed: the readings fit to {:.3} N if they are in the base frame, to {rms:.3} N as it is",

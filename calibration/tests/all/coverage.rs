@@ -44,11 +44,6 @@ impl Coverage {
         self.share_lies_in(what, 95.0 - self.allowed()..=most);
     }
 
-    /// No share is below 93 %, or below what chance lets it be: intervals that are too wide where little is known.
-    pub(crate) fn holds_at_least(&self, what: &str) {
-        self.share_lies_in(what, 95.0 - self.allowed()..=100.0);
-    }
-
     fn allowed(&self) -> f64 {
         (400.0 * (0.95 * 0.05 / self.trials as f64).sqrt()).max(2.0)
     }

@@ -54,7 +54,8 @@ fn errors_of_the_payload_are_as_stated() {
             }
             (errors, variances)
         });
-        spread.agrees("payload");
+        // What chance makes of the weights of the components is known to first order.
+        spread.agrees_within("payload", 0.16);
     }
 }
 
@@ -84,7 +85,17 @@ fn errors_of_the_mounting_are_as_stated() {
     spread.agrees("mounting");
 }
 
-/// Base and sensor frame turned, forces and lengths in other units, poses in another order.
+/// One of the 24 ways to name the axes of a frame anew.
+fn quarter_turns(random: &mut Pcg64Mcg) -> Matrix3<f64> {
+    let about = |axis: &Vector3<f64>, quarters: i32| {
+        let turn = Rotation3::new(axis * (core::f64::consts::FRAC_PI_2 * f64::from(quarters)));
+        turn.into_inner().map(f64::round)
+    };
+    let quarters = (random.random_range(0..4), random.random_range(0..4), random.random_range(0..4));
+    about(&Vector3::x(), quarters.0) * about(&Vector3::y(), quarters.1) * about(&Vector3::z(), quarters.2)
+}
+
+/// Base frame turned, axes of the sensor named anew, forces and lengths in other units, poses in another order.
 #[test]
 fn payload_and_mounting_do_not_mind_units_order_and_frames() {
     let random = &mut Pcg64Mcg::seed_from_u64(33);
@@ -93,7 +104,8 @@ fn payload_and_mounting_do_not_mind_units_order_and_frames() {
         let poses: Vec<Pose> = (0..8).map(|_| reading(&turn(random), &weight, random)).collect();
         // The base may stand crooked, but not upside down.
         let base = core::iter::repeat_with(|| turn(random)).find(|base| (base * weight).z < 0.0).unwrap();
-        let sensor = turn(random);
+        // How noisy each component is goes with the axes of the sensor, which stay.
+        let sensor = quarter_turns(random);
         let (newton, metre) =
             (10_f64.powi(random.random_range(-6..6)), 10_f64.powi(random.random_range(-3..4)));
         let other: Vec<Pose> = (0..8)
@@ -117,26 +129,16 @@ fn payload_and_mounting_do_not_mind_units_order_and_frames() {
         close(same.centre_of_mass / metre, sensor * fit.centre_of_mass, 0.1);
         close(same.force_bias / newton, sensor * fit.force_bias, 3.0);
         close(same.torque_bias / (newton * metre), sensor * fit.torque_bias, 0.3);
-        // How noisy each component is goes with the axes of the sensor, which stay here.
-        let scaled: Vec<Pose> = poses
-            .iter()
-            .rev()
-            .map(|pose| {
-                let force = pose.wrench.fixed_rows::<3>(0) * newton;
-                let torque = pose.wrench.fixed_rows::<3>(3) * (newton * metre);
-                Pose { base_from_sensor: base * pose.base_from_sensor, wrench: wrench(force, torque) }
-            })
-            .collect();
-        let scaled = fit_payload(&scaled, &options).unwrap();
         let near = |a: f64, b: f64| {
             assert!((a / b - 1.0).abs() < 1e-8 * fit.condition_number.powi(2), "{a} {b}");
         };
-        near(scaled.weight_deviation / newton, fit.weight_deviation);
-        near(scaled.freedom.weight, fit.freedom.weight);
+        near(same.weight_deviation / newton, fit.weight_deviation);
+        near(same.freedom.weight, fit.freedom.weight);
+        let named = sensor.map(f64::abs);
         for i in 0..3 {
-            near(scaled.centre_deviation[i] / metre, fit.centre_deviation[i]);
-            near(scaled.torque_bias_deviation[i] / (newton * metre), fit.torque_bias_deviation[i]);
-            near(scaled.freedom.centre[i], fit.freedom.centre[i]);
+            near(same.centre_deviation[i] / metre, (named * fit.centre_deviation)[i]);
+            near(same.torque_bias_deviation[i] / (newton * metre), (named * fit.torque_bias_deviation)[i]);
+            near(same.freedom.centre[i], (named * fit.freedom.centre)[i]);
         }
         // The mounting turns with the sensor, whose flange is the former frame.
         let down = weight.normalize();
@@ -182,14 +184,18 @@ fn the_residuals_are_those_of_the_readings() {
 }
 
 /// Forces without noise, so that the centre of mass is one regression of the torques: on a given axis of one unknown,
-/// or of three. The readings taken as of the base frame, and how alike the poses are, by normal equations.
+/// or of three. Where the torques seem alike, as they are, it is the plain one, and by its covariance sure, but for what is
+/// seen of correlations; where chance makes them seem unlike, the answers are not far off. The readings taken as of the base
+/// frame, and how alike the poses are, by normal equations.
 #[test]
 fn the_centre_of_mass_may_be_known_to_lie_on_an_axis() {
     let random = &mut Pcg64Mcg::seed_from_u64(35);
     let weight = Vector3::new(0.0, 0.0, -3.0);
     let axis = Vector3::new(0.6, 0.0, -0.8);
-    for centre_on in [None, Some(axis * 7.0)] {
-        let poses: Vec<Pose> = (0..6)
+    let (mut plain, mut squares) = (0, 0.0);
+    for draw in 0..60 {
+        let centre_on = (draw % 2 == 0).then_some(axis * 7.0);
+        let poses: Vec<Pose> = (0..12)
             .map(|_| {
                 let base_from_sensor = turn(random);
                 let pull = base_from_sensor.tr_mul(&weight);
@@ -205,7 +211,7 @@ fn the_centre_of_mass_may_be_known_to_lie_on_an_axis() {
         };
         let stacked = |of: &dyn Fn(&Pose, usize) -> Vec<f64>| {
             let rows: Vec<Vec<f64>> = poses.iter().flat_map(|pose| (0..3).map(|i| of(pose, i))).collect();
-            DMatrix::from_fn(18, rows[0].len(), |i, j| rows[i][j])
+            DMatrix::from_fn(36, rows[0].len(), |i, j| rows[i][j])
         };
         let unit = |i: usize| (0..3).map(move |j| if i == j { 1.0 } else { 0.0 });
         let (x, y) = (
@@ -219,26 +225,25 @@ fn the_centre_of_mass_may_be_known_to_lie_on_an_axis() {
         let inverse = (x.transpose() * &x).try_inverse().unwrap();
         let found = &inverse * x.transpose() * &y;
         let lengths = span.ncols();
-        // What is left is `(1 − H) e`: the squares of each component in the mean, solved for the variances.
-        let maker = DMatrix::identity(18, 18) - &x * &inverse * x.transpose();
-        let left = &y - &x * &found;
-        let squares = DMatrix::from_fn(3, 1, |a, _| (0..6).map(|i| left[3 * i + a].powi(2)).sum::<f64>());
-        let mean = DMatrix::from_fn(3, 3, |a, b| {
-            let pairs = (0..6).flat_map(|i| (0..6).map(move |j| (3 * i + a, 3 * j + b)));
-            pairs.map(|entry| maker[entry].powi(2)).sum::<f64>()
-        });
-        let least = DMatrix::from_fn(3, 1, |a, _| 0.05 * squares[a] / mean[(a, a)]);
-        let variances = (mean.try_inverse().unwrap() * squares).zip_map(&least, f64::max);
-        let noise = DMatrix::from_fn(18, 18, |i, j| if i == j { variances[i % 3] } else { 0.0 });
-        let covariance = &inverse * x.transpose() * noise * &x * &inverse;
         let centre = &span * found.rows(0, lengths);
-        let spread = &span * covariance.view((0, 0), (lengths, lengths)) * span.transpose();
+        let spread = &span * inverse.view((0, 0), (lengths, lengths)) * span.transpose();
+        let is_plain = (0..3).all(|i| (fit.centre_of_mass[i] - centre[i]).abs() < 1e-12);
+        plain += usize::from(is_plain);
         for i in 0..3 {
-            assert!((fit.centre_of_mass[i] - centre[i]).abs() < 1e-12, "{fit:?}");
-            assert!((fit.centre_deviation[i] - spread[(i, i)].sqrt()).abs() < 1e-9, "{fit:?}");
-            assert!((fit.torque_bias[i] - found[lengths + i]).abs() < 1e-12, "{fit:?}");
-            let deviation = covariance[(lengths + i, lengths + i)].sqrt();
-            assert!((fit.torque_bias_deviation[i] - deviation).abs() < 1e-9, "{fit:?}");
+            let (turn, freedom) = (fit.torque_bias[i] - found[lengths + i], (36 - lengths - 3) as f64);
+            let deviation = fit.centre_deviation[i];
+            let expected = spread[(i, i)].sqrt() * NOISE.1;
+            if is_plain {
+                assert!(turn.abs() < 1e-12, "{fit:?}");
+            } else {
+                assert!((fit.centre_of_mass[i] - centre[i]).abs() <= deviation, "{fit:?} {centre}");
+                assert!(turn.abs() < fit.torque_bias_deviation[i], "{fit:?} {found}");
+            }
+            assert!(deviation <= 3.0 * expected && deviation >= expected / 3.0, "{deviation} {expected}");
+            assert!(fit.freedom.centre[i] < 1.3 * freedom || expected == 0.0, "{fit:?}");
+            if expected > 0.0 {
+                squares += (deviation / expected).powi(2) / 150.0;
+            }
         }
         let x = stacked(&|pose, i| core::iter::once(-pose.base_from_sensor[(2, i)]).chain(unit(i)).collect());
         let y = stacked(&|pose, i| vec![pose.base_from_sensor.tr_mul(&pose.wrench.fixed_rows::<3>(0))[i]]);
@@ -247,7 +252,9 @@ fn the_centre_of_mass_may_be_known_to_lie_on_an_axis() {
         let number = (eigenvalues.max() / eigenvalues.min()).sqrt();
         assert!((fit.condition_number / number - 1.0).abs() < 1e-9, "{fit:?} {number}");
         let left = &y - &x * (gram.try_inverse().unwrap() * x.transpose() * &y);
-        let rms = left.norm() / 18.0_f64.sqrt();
+        let rms = left.norm() / 36.0_f64.sqrt();
         assert!(rms > 0.1 && (fit.rms_if_in_base / rms - 1.0).abs() < 1e-9, "{fit:?} {rms}");
     }
+    assert!(plain > 30, "{plain}");
+    assert!((squares - 1.0).abs() < 0.15, "{squares}");
 }

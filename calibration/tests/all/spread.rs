@@ -45,6 +45,11 @@ impl Spread {
     /// Every parameter within 5 %. So many trials must have been made that 5 % are three standard errors and
     /// more of each, in which a wrong factor cannot hide.
     pub(crate) fn agrees(&self, what: &str) {
+        self.agrees_within(what, 0.05);
+    }
+
+    /// Every parameter as near as said, in the mean square.
+    pub(crate) fn agrees_within(&self, what: &str, bound: f64) {
         let ratios: Vec<Ratio> = (0..self.stated.len()).map(|i| self.ratio(i..i + 1)).collect();
         let (mut worst, mut doubt) = (Worst::new(), Worst::new());
         for ratio in &ratios {
@@ -59,7 +64,7 @@ impl Spread {
             100.0 * mean,
             100.0 * doubt
         );
-        assert!(worst < 0.05, "{what}: {:.3?}", ratios.iter().map(|ratio| ratio.off).collect::<Vec<_>>());
+        assert!(worst < bound, "{what}: {:.3?}", ratios.iter().map(|ratio| ratio.off).collect::<Vec<_>>());
         assert!(3.0 * doubt < 0.05, "{what}: {} trials are too few: {doubt}", self.errors.len());
     }
 
