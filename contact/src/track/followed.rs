@@ -7,7 +7,7 @@ use nalgebra::{Vector2, Vector3};
 use super::Sighting;
 use super::fold::Fold;
 use super::plane::{PlaneState, Weighed};
-use super::retract::onto_surface;
+use super::retract::{beside_the_line, onto_surface};
 use super::symmetric::Symmetric;
 
 /// A place of the surface with its tangent plane, and what is known in that plane in units of the tracker.
@@ -18,6 +18,30 @@ pub(super) struct Track<T: Real> {
     /// Carried along without turning about the normal.
     pub(super) tangents: [Vector3<T>; 2],
     pub(super) state: PlaneState<T>,
+}
+
+/// A sighting, its covariance in units of the tracker.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen<T: Real> {
+    point: Vector3<T>,
+    normal: Vector3<T>,
+    tangents: [Vector3<T>; 2],
+    noise: Symmetric<T>,
+}
+
+impl<T: Real> Seen<T> {
+    /// `shorter` is the reciprocal of the unit of length \[1/m\].
+    #[inline(always)]
+    pub(super) fn new(sighting: &Sighting<T>, shorter: T) -> Self {
+        let Sighting { point, normal, tangents, covariance } = *sighting;
+        Self { point, normal, tangents, noise: Symmetric::of(&covariance).scaled(shorter * shorter) }
+    }
+
+    /// Sum of the variances \[units\].
+    #[inline(always)]
+    pub(super) fn variance(&self) -> T {
+        self.noise.trace()
+    }
 }
 
 /// What a sighting says to a track.
@@ -38,14 +62,10 @@ impl<T: Real> Compared<T> {
 }
 
 impl<T: Real> Track<T> {
-    /// The first sighting; `shorter` is the reciprocal of the unit of length \[1/m\].
-    pub(super) fn start(sighting: &Sighting<T>, shorter: T) -> Self {
-        Self {
-            point: sighting.point,
-            normal: sighting.normal,
-            tangents: sighting.tangents,
-            state: PlaneState::first(Symmetric::of(&sighting.covariance).scaled(shorter * shorter)),
-        }
+    /// The first sighting.
+    pub(super) fn start(seen: &Seen<T>) -> Self {
+        let Seen { point, normal, tangents, noise } = *seen;
+        Self { point, normal, tangents, state: PlaneState::first(noise) }
     }
 
     /// What a sighting says in the state that the track has come to by now, if the contact has moved so far \[units\]
@@ -53,21 +73,21 @@ impl<T: Real> Track<T> {
     #[inline(always)]
     pub(super) fn compare(
         &self,
-        sighting: &Sighting<T>,
+        seen: &Seen<T>,
         (state, moved): &(PlaneState<T>, Vector2<T>),
         shorter: T,
     ) -> Option<Compared<T>> {
-        let fold = Fold::new(&self.normal, &sighting.normal)?;
+        let fold = Fold::new(&self.normal, &seen.normal)?;
         let along = fold.along(&self.tangents);
-        let innovation = along(&(sighting.point - self.point)) * shorter - moved;
+        let innovation = along(&(seen.point - self.point)) * shorter - moved;
         // The covariance, turned from the tangents there to those here: both pairs are right-handed.
-        let noise = Symmetric::of(&sighting.covariance).turned(&along(&sighting.tangents[0]));
-        let weighed = state.weigh(&innovation, noise.scaled(shorter * shorter))?;
+        let noise = seen.noise.turned(&along(&seen.tangents[0]));
+        let weighed = state.weigh(&innovation, noise)?;
         Some(Compared { weighed, innovation, along: fold.direction() })
     }
 
     /// Takes a sighting that was compared, in the state that the track has come to by now, after the contact has moved so
-    /// far \[units\].
+    /// far \[units\]. `None` if a number is none then.
     #[inline(always)]
     pub(super) fn take<S: ActiveSurface<T>>(
         &mut self,
@@ -75,10 +95,11 @@ impl<T: Real> Track<T> {
         compared: &Compared<T>,
         (mut state, moved): (PlaneState<T>, Vector2<T>),
         unit: T,
-    ) {
-        let corrected = state.take(&compared.weighed);
+    ) -> Option<()> {
+        let corrected = state.take(&compared.weighed)?;
         self.state = state;
         self.shift(surface, &(moved + corrected), &compared.along, unit);
+        Some(())
     }
 
     /// Without a sighting: moves as far as is expected \[units\].
@@ -105,10 +126,27 @@ impl<T: Real> Track<T> {
         let size = |v: &Vector3<T>| v.x.abs() + v.y.abs() + v.z.abs();
         let reach = size(&way) * T::literal(2.0) + size(&beside) * (T::EPSILON * T::literal(256.0));
         let line = Line { point: beside, direction: *along };
-        let Some((point, normal)) = onto_surface(surface, line, reach) else { return };
+        match onto_surface(surface, &line, reach) {
+            Some((point, normal)) => self.settle(point, normal),
+            None => self.settle_beside(surface, line, reach),
+        }
+    }
+
+    /// Past an end or an edge.
+    #[cold]
+    #[inline(never)]
+    fn settle_beside<S: ActiveSurface<T>>(&mut self, surface: &S, line: Line<T>, reach: T) {
+        if let Some((point, normal)) = beside_the_line(surface, line, reach) {
+            self.settle(point, normal);
+        }
+    }
+
+    /// Moves to a place of the surface, and carries the tangents along.
+    #[inline(always)]
+    fn settle(&mut self, point: Vector3<T>, normal: Vector3<T>) {
         let Some(fold) = Fold::new(&normal, &self.normal) else { return };
         // Across the normal however it was rounded before; of unit length but for rounding, which must not add up.
-        let first = fold.flat(e1);
+        let first = fold.flat(&self.tangents[0]);
         let first = first * (T::literal(1.5) - first.norm_squared() * T::literal(0.5));
         self.tangents = [first, normal.cross(&first)];
         (self.point, self.normal) = (point, normal);

@@ -89,7 +89,7 @@ impl<T: Real> Sighting<T> {
         let (first, second) = tangents(&contact.normal);
         // A covariance that is a number is one, and its tangents are numbers.
         let (point, normal) = (contact.point, contact.normal);
-        let finite = (point.sum() + normal.sum()).is_number();
+        let finite = ((point.x + point.y + point.z) + (normal.x + normal.y + normal.z)).is_number();
         finite.then_some(Self { point, normal, tangents: [first, second], covariance })
     }
 

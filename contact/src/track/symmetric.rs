@@ -13,10 +13,11 @@ pub(super) struct Symmetric<T> {
 }
 
 impl<T: Real> Symmetric<T> {
-    /// Of a matrix that is symmetric but for rounding.
+    /// Of a matrix that is symmetric.
     #[inline(always)]
-    pub(super) fn of(m: &Matrix2<T>) -> Self {
-        Self { xx: m.m11, xy: (m.m12 + m.m21) * T::literal(0.5), yy: m.m22 }
+    pub(super) const fn of(m: &Matrix2<T>) -> Self {
+        let [[xx, xy], [_, yy]] = m.data.0;
+        Self { xx, xy, yy }
     }
 
     #[inline(always)]
@@ -27,11 +28,6 @@ impl<T: Real> Symmetric<T> {
     #[inline(always)]
     pub(super) fn matrix(&self) -> Matrix2<T> {
         Matrix2::new(self.xx, self.xy, self.xy, self.yy)
-    }
-
-    #[inline(always)]
-    pub(super) const fn rows(&self) -> [Vector2<T>; 2] {
-        [Vector2::new(self.xx, self.xy), Vector2::new(self.xy, self.yy)]
     }
 
     #[inline(always)]
@@ -67,6 +63,12 @@ impl<T: Real> Symmetric<T> {
     #[inline(always)]
     pub(super) fn is_covariance(&self) -> bool {
         self.xx > T::zero() && self.yy > T::zero() && self.xy * self.xy <= self.xx * self.yy
+    }
+
+    /// [`is_covariance`](Self::is_covariance) with variance in every direction, for less.
+    #[inline(always)]
+    pub(super) fn is_definite(&self) -> bool {
+        self.xx > T::zero() && self.xy * self.xy < self.xx * self.yy
     }
 
     /// Such that its variances are no less than this, and no direction has a negative one: where noise in one direction
