@@ -1,6 +1,6 @@
 //! The filter in the tangent plane: position and velocity, driven by white acceleration.
 
-use fingertip_surfaces::numeric::vectors::{larger, smaller};
+use fingertip_surfaces::numeric::vectors::larger;
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Vector2};
 
@@ -24,14 +24,13 @@ pub(super) struct Weighed<T: Real> {
     /// Inverse of the covariance of the innovation, and its product with the innovation.
     inverse: Symmetric<T>,
     weighted: Vector2<T>,
-    noise: Symmetric<T>,
+    pub(super) noise: Symmetric<T>,
     /// Normalised innovation squared: χ² of two degrees of freedom.
     pub(super) surprise: T,
 }
 
 impl<T: Real> PlaneState<T> {
     /// A first measurement: nothing is known of the velocity but that its deviation is 1.
-    #[inline]
     pub(super) fn first(noise: Symmetric<T>) -> Self {
         Self {
             velocity: Vector2::zeros(),
@@ -85,17 +84,20 @@ impl<T: Real> PlaneState<T> {
         Some(Weighed { inverse, weighted, noise, surprise })
     }
 
-    /// Takes the measurement: how far the position is moved by it. `None` if a number is none then.
+    /// What is known with the measurement taken, how far the position is moved by it, and whether all is sound: if not,
+    /// [`mend`](Self::mend) helps.
     ///
     /// With `S = P + R`, the gain is `P S⁻¹`. The new covariance `P − P S⁻¹ P = R S⁻¹ P` is formed as the product,
     /// which has no cancellation.
     #[inline(always)]
-    pub(super) fn take(&mut self, weighed: &Weighed<T>) -> Option<Vector2<T>> {
+    pub(super) fn with(&self, weighed: &Weighed<T>) -> (Self, Vector2<T>, bool) {
         let Weighed { inverse, weighted, noise, .. } = weighed;
         let (p, m, v) = (self.positions, self.mixed, self.velocities);
         let moved = p.times(weighted);
-        self.velocity +=
-            Vector2::new(m.m11 * weighted.x + m.m21 * weighted.y, m.m12 * weighted.x + m.m22 * weighted.y);
+        let velocity = Vector2::new(
+            self.velocity.x + m.m11 * weighted.x + m.m21 * weighted.y,
+            self.velocity.y + m.m12 * weighted.x + m.m22 * weighted.y,
+        );
         let (i, r) = (inverse, noise);
         // `R S⁻¹`, and `S⁻¹ P_xv`.
         let left = Matrix2::new(
@@ -106,37 +108,32 @@ impl<T: Real> PlaneState<T> {
         );
         let [first, second] = [Vector2::new(m.m11, m.m21), Vector2::new(m.m12, m.m22)];
         let (faster, other) = (i.times(&first), i.times(&second));
-        self.positions = Symmetric {
+        let positions = Symmetric {
             xx: left.m11 * p.xx + left.m12 * p.xy,
             xy: left.m11 * p.xy + left.m12 * p.yy,
             yy: left.m21 * p.xy + left.m22 * p.yy,
         };
-        self.mixed = left * m;
-        self.velocities = Symmetric {
+        let mixed = left * m;
+        let velocities = Symmetric {
             xx: v.xx - first.x * faster.x - first.y * faster.y,
             xy: v.xy - first.x * other.x - first.y * other.y,
             yy: v.yy - second.x * other.x - second.y * other.y,
         };
-        let mixed = (self.mixed.m11 + self.mixed.m12) + (self.mixed.m21 + self.mixed.m22);
-        let all = (self.velocity.x + self.velocity.y) + (self.positions.xx + self.positions.yy) + mixed;
-        // No variance of the velocity has grown, and nothing mixed is more than its variances allow.
-        let sound = self.positions.is_definite() & self.velocities.is_definite() & all.is_number();
-        if !sound {
-            // No more is left of the position than either of the two says.
-            self.mend([smaller(p.xx, r.xx), smaller(p.yy, r.yy)], [v.xx, v.yy])?;
-        }
-        Some(moved)
+        let all = (velocity.x + velocity.y)
+            + (positions.xx + positions.yy)
+            + ((mixed.m11 + mixed.m12) + (mixed.m21 + mixed.m22));
+        // No variance of the velocity has grown, and what is mixed of one kind is no more than its variances allow.
+        let sound = positions.is_definite() & velocities.is_definite() & all.is_number();
+        (Self { velocity, positions, mixed, velocities }, moved, sound)
     }
 
-    /// With variances that are no less than rounding leaves of these. `None` if a number is none.
+    /// With variances that are no less than what rounding leaves of these. `None` if a number is none.
     #[cold]
     #[inline(never)]
-    fn mend(&mut self, positions: [T; 2], velocities: [T; 2]) -> Option<()> {
-        let least = |bounds: [T; 2]| bounds.map(|bound| bound * T::EPSILON);
-        let good = self.positions.is_covariance() && self.velocities.is_covariance();
-        if !good {
-            self.positions = self.positions.at_least(least(positions));
-            self.velocities = self.velocities.at_least(least(velocities));
+    pub(super) fn mend(&mut self, positions: [T; 2], velocities: [T; 2]) -> Option<()> {
+        if !(self.positions.is_covariance() && self.velocities.is_covariance()) {
+            self.positions = self.positions.at_least(positions.map(|bound| bound * T::EPSILON));
+            self.velocities = self.velocities.at_least(velocities.map(|bound| bound * T::EPSILON));
         }
         self.is_number().then_some(())
     }

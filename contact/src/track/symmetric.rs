@@ -13,10 +13,8 @@ pub(super) struct Symmetric<T> {
 }
 
 impl<T: Real> Symmetric<T> {
-    /// Of a matrix that is symmetric.
     #[inline(always)]
-    pub(super) const fn of(m: &Matrix2<T>) -> Self {
-        let [[xx, xy], [_, yy]] = m.data.0;
+    pub(super) const fn new([xx, xy, yy]: [T; 3]) -> Self {
         Self { xx, xy, yy }
     }
 
@@ -93,7 +91,7 @@ mod tests {
             let m = Matrix2::new(xx, xy, xy, yy);
             let c = Rotation2::<f64>::new(angle);
             let expected = c.matrix() * m * c.matrix().transpose();
-            let turned = Symmetric::of(&m).turned(&Vector2::new(angle.cos(), angle.sin()));
+            let turned = Symmetric { xx, xy, yy }.turned(&Vector2::new(angle.cos(), angle.sin()));
             prop_assert!((turned.matrix() - expected).norm() < 1e-14);
             prop_assert!((turned.trace() - (xx + yy)).abs() < 1e-14);
         }

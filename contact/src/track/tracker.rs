@@ -156,58 +156,57 @@ impl<T: Real> Tracker<T> {
     }
 
     #[inline(always)]
-    fn see<S: ActiveSurface<T>>(
-        &mut self,
-        surface: &S,
-        sighting: &Sighting<T>,
-        time: T,
-    ) -> Option<Said<T>> {
-        let seen = Seen::new(sighting, self.shorter);
-        if !seen.variance().is_number() {
-            // It says nothing.
-            return self.coast(surface, time);
-        }
-        let Some(track) = &mut self.track else { return self.start(seen) };
-        let now = track.state.wait(time);
-        match track.compare(&seen, &now, self.shorter) {
-            Some(compared) if compared.surprise() <= self.gate => {
-                if track.take(surface, &compared, now, self.unit).is_none() {
+    fn see<S: ActiveSurface<T>>(&mut self, surface: &S, sighting: &Sighting<T>, time: T) -> Option<Said<T>> {
+        if let Some(track) = &mut self.track {
+            if let Some(compared) = track.compare(sighting, time, self.shorter)
+                && compared.surprise() <= self.gate
+            {
+                if track.take(surface, &compared, self.unit).is_none() {
                     return self.forget();
                 }
                 self.rival = None;
-                self.sample = seen.variance();
+                self.sample = compared.variance();
                 let (innovation, surprise) = (compared.innovation, compared.surprise());
-                Some(Said { continuity: Continuity::Followed, innovation, surprise })
+                return Some(Said { continuity: Continuity::Followed, innovation, surprise });
             }
-            _ => self.doubt(surface, seen, time),
         }
+        self.doubt(surface, Seen::new(sighting, self.shorter), time)
     }
 
-    /// The sample may be of another contact: of the one that the sample before was of, if that was in doubt, too.
+    /// The first sample, or one that may be of another contact: of the one that the sample before was of, if that was in
+    /// doubt, too.
     #[cold]
     #[inline(never)]
     fn doubt<S: ActiveSurface<T>>(&mut self, surface: &S, seen: Seen<T>, time: T) -> Option<Said<T>> {
+        let variance = seen.variance();
+        if !variance.is_number() {
+            // It says nothing.
+            return self.coast(surface, time);
+        }
+        let Some(track) = &mut self.track else {
+            self.track = Some(Track::start(&seen));
+            self.sample = variance;
+            return self.checked(Said::plainly(Continuity::New));
+        };
         // Once more, since to carry it here would cost the samples that are not in doubt.
         let (shorter, unit) = (self.shorter, self.unit);
-        let track = self.track.as_mut()?;
-        let now = track.state.wait(time);
-        let compared = track.compare(&seen, &now, shorter).filter(|compared| compared.surprise().is_number());
+        let compared =
+            track.compare_seen(&seen, time, shorter).filter(|compared| compared.surprise().is_number());
         let mut continuity = Continuity::Doubted;
         let follow = |mut rival: Track<T>| {
-            let then = rival.state.wait(time);
-            let again = rival.compare(&seen, &then, shorter)?;
+            let again = rival.compare_seen(&seen, time, shorter)?;
             if !(again.surprise() <= self.gate) {
                 return None;
             }
-            rival.take(surface, &again, then, unit).map(|()| rival)
+            rival.take(surface, &again, unit).map(|()| rival)
         };
         if let Some(rival) = self.rival.and_then(follow) {
             (self.track, self.rival) = (Some(rival), None);
-            self.sample = seen.variance();
+            self.sample = variance;
             continuity = Continuity::New;
         } else {
             self.rival = Some(Track::start(&seen));
-            track.move_on(surface, now, unit);
+            track.move_on(surface, track.state.wait(time), unit);
         }
         let (innovation, surprise) = match compared {
             Some(compared) => (compared.innovation, compared.surprise()),
@@ -231,17 +230,13 @@ impl<T: Real> Tracker<T> {
         self.checked(Said::plainly(Continuity::Bridged))
     }
 
-    #[cold]
-    #[inline(never)]
-    fn start(&mut self, seen: Seen<T>) -> Option<Said<T>> {
-        self.track = Some(Track::start(&seen));
-        self.sample = seen.variance();
-        self.checked(Said::plainly(Continuity::New))
-    }
-
     /// Nothing of a track whose numbers are out of range, and it is forgotten.
     fn checked(&mut self, said: Said<T>) -> Option<Said<T>> {
-        if self.track.as_ref().is_some_and(|track| track.state.is_number()) { Some(said) } else { self.forget() }
+        if self.track.as_ref().is_some_and(|track| track.state.is_number()) {
+            Some(said)
+        } else {
+            self.forget()
+        }
     }
 
     #[cold]

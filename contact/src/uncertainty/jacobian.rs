@@ -6,6 +6,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Vector3, Vector6};
 
 use super::WrenchSpread;
+use super::line_spread::{Across, congruence};
 use super::sinking::Sinking;
 use crate::Contact;
 
@@ -223,36 +224,17 @@ impl<T: Real> ContactJacobian<T> {
         in_range.then_some(jacobian)
     }
 
-    /// The covariance of the position of a point contact, straight from the contact: what is out of range makes one
-    /// that is none.
-    ///
-    /// With `l = f/(f·n)`, the tangents `e` and `a = e − l (l·e)/|l|²`, which is the part of `e` across the force, it is
-    /// `Eᵀdc = (−a₂·b, a₁·b)/(f·n)`, `b = dm − c × df − p df`.
-    #[inline(always)]
-    pub(super) fn point_position_covariance(
-        contact: &Contact<T>,
-        wrench: &Wrench<T>,
-        spread: WrenchSpread<'_, T>,
-    ) -> Option<Matrix2<T>> {
-        let across = Across::new(&contact.force, &contact.normal, &wrench.torque());
-        let torque = spread.torque_beside(&contact.point, across.pitch);
-        let [c11, c12, c22] = congruence(&torque, &across.directions);
-        let stretch = across.inverse * across.inverse;
-        let both = -(c12 * stretch);
-        let covariance = Matrix2::new(c22 * stretch, both, both, c11 * stretch);
-        (covariance.m11 + covariance.m22).is_number().then_some(covariance)
-    }
-
-    /// And whether all of it is a number.
+    /// The derivatives of a point contact, and whether all of them are numbers.
     #[inline(always)]
     fn unchecked_of_point(
         contact: &Contact<T>,
         wrench: &Wrench<T>,
         bend: impl FnOnce(&Vector3<T>, &Vector3<T>) -> Matrix2<T>,
     ) -> (Self, bool) {
-        let Across { tangents: [e1, e2], directions: across, inverse, pitch } =
-            Across::new(&contact.force, &contact.normal, &wrench.torque());
+        let (e1, e2) = tangents(&contact.normal);
         let bend = bend(&e1, &e2);
+        let beside = Across::new(&contact.force, &contact.normal, &wrench.torque());
+        let (inverse, pitch, across) = (beside.inverse, beside.pitch, [e1, e2].map(|e| beside.of(&e)));
         let adjugate = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
         let in_range = (across[0].sum() + across[1].sum() + inverse + bend.sum() + pitch).is_number();
         let jacobian = Self {
@@ -333,46 +315,6 @@ impl<T: Real> ContactJacobian<T> {
             }
         }
     }
-}
-
-/// What is across the force of a point contact.
-struct Across<T: Real> {
-    tangents: [Vector3<T>; 2],
-    /// The tangents less their parts along the force.
-    directions: [Vector3<T>; 2],
-    /// `1/(f·n)`.
-    inverse: T,
-    pitch: T,
-}
-
-impl<T: Real> Across<T> {
-    #[inline(always)]
-    fn new(force: &Vector3<T>, normal: &Vector3<T>, torque: &Vector3<T>) -> Self {
-        let (e1, e2) = tangents(normal);
-        let inverse = T::one() / force.dot(normal);
-        // In units of the pressing force: no square leaves the range, and its part along the normal is one.
-        let leaning = force * inverse;
-        let (first, second) = (leaning.dot(&e1), leaning.dot(&e2));
-        let part = T::one() / (first * first + second * second + T::one());
-        let pitch = leaning.dot(torque) * (inverse * part);
-        // dp = f·(dm − c × df − p df)/|f|² takes what is along the force.
-        let directions = [e1 - leaning * (first * part), e2 - leaning * (second * part)];
-        Self { tangents: [e1, e2], directions, inverse, pitch }
-    }
-}
-
-/// `aᵀMa`, `aᵀMb`, `bᵀMb` of a symmetric matrix `xx, xy, xz, yy, yz, zz`.
-#[inline(always)]
-fn congruence<T: Real>(&[xx, xy, xz, yy, yz, zz]: &[T; 6], [a, b]: &[Vector3<T>; 2]) -> [T; 3] {
-    let with = |e: &Vector3<T>| {
-        Vector3::new(
-            xx * e.x + xy * e.y + xz * e.z,
-            xy * e.x + yy * e.y + yz * e.z,
-            xz * e.x + yz * e.y + zz * e.z,
-        )
-    };
-    let (with_a, with_b) = (with(a), with(b));
-    [a.dot(&with_a), a.dot(&with_b), b.dot(&with_b)]
 }
 
 /// The inverse of `τ EᵀWE + (f·n) J₂`, both loads given times `scale`, as adjugate and reciprocal of the
