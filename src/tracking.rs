@@ -2,7 +2,7 @@
 
 use fingertip_contact::Contact;
 #[cfg(feature = "track")]
-use fingertip_contact::{PointContact, Sighting, SoftFinger, Tracked, Tracker, WrenchNoise};
+use fingertip_contact::{PointContact, Sighting, SoftFinger, Tracked, Tracker, WrenchNoise, WrenchSpread};
 #[cfg(feature = "track")]
 use fingertip_surfaces::{ActiveSurface, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
@@ -109,8 +109,8 @@ impl<T: Real, Surface: ActiveSurface<T>> TrackStage<T, PointContact<T>, Surface>
         (_, surface): (&PointContact<T>, &Surface),
         time_step: T,
     ) -> Option<Tracked<T>> {
-        let sighting =
-            found.and_then(|found| Sighting::of_point_contact(found, wrench, &self.noise.covariance(wrench)));
+        let spread = WrenchSpread::Independent(self.noise.variances(wrench));
+        let sighting = found.and_then(|found| Sighting::of_point_contact(found, wrench, spread));
         self.tracker.follow(surface, sighting.as_ref(), time_step)
     }
 
@@ -134,8 +134,8 @@ where
         (_, surface): (&SoftFinger<T>, &Surface),
         time_step: T,
     ) -> Option<Tracked<T>> {
-        let sighting =
-            found.and_then(|found| Sighting::of_soft_finger(found, surface, &self.noise.covariance(wrench)));
+        let spread = WrenchSpread::Independent(self.noise.variances(wrench));
+        let sighting = found.and_then(|found| Sighting::of_soft_finger(found, surface, spread));
         self.tracker.follow(surface, sighting.as_ref(), time_step)
     }
 

@@ -42,6 +42,12 @@ impl<T: Real> Fold<T> {
         }
     }
 
+    /// Tangents here, brought into the plane there.
+    #[inline(always)]
+    pub(super) fn carried(&self, tangents: &[Vector3<T>; 2]) -> [Vector3<T>; 2] {
+        tangents.map(|e| e - self.along * (e.dot(&self.along) * self.scale))
+    }
+
     /// The direction along which the one plane maps onto the other: of `n + n'`, of which the square is
     /// `2 (1 + n·n')`.
     #[inline(always)]
@@ -81,6 +87,8 @@ mod tests {
             prop_assert!((fold.flat(&(turn * tangent)) - tangent).norm() < 1e-13);
             let axes = [Vector3::x(), Vector3::y()];
             prop_assert!((fold.along(&axes)(&(turn * tangent)) - tangent.xy()).norm() < 1e-13);
+            let carried = fold.carried(&axes);
+            prop_assert!((carried[0] - turn * axes[0]).norm() < 1e-13 && (carried[1] - turn * axes[1]).norm() < 1e-13);
             let direction = fold.direction();
             prop_assert!((direction.norm() - 1.0).abs() < 1e-13);
             prop_assert!((turn * tangent - tangent).cross(&direction).norm() < 1e-13);

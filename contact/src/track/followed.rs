@@ -1,13 +1,14 @@
 //! One contact that is followed on the surface.
 
 use fingertip_surfaces::ActiveSurface;
+use fingertip_surfaces::numeric::vectors::{larger, smaller};
 use fingertip_wrench::{Line, Real};
 use nalgebra::{Vector2, Vector3};
 
 use super::Sighting;
 use super::fold::Fold;
 use super::plane::{PlaneState, Weighed};
-use super::retract::onto_surface;
+use super::retract::{beside_the_line, onto_surface};
 use super::symmetric::Symmetric;
 
 /// A place of the surface with its tangent plane, and what is known in that plane in units of the tracker.
@@ -20,9 +21,39 @@ pub(super) struct Track<T: Real> {
     pub(super) state: PlaneState<T>,
 }
 
+/// A sighting in its own tangents, in units of the tracker.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen<T: Real> {
+    point: Vector3<T>,
+    normal: Vector3<T>,
+    tangents: [Vector3<T>; 2],
+    noise: Symmetric<T>,
+}
+
+impl<T: Real> Seen<T> {
+    /// `shorter` is the reciprocal of the unit of length \[1/m\].
+    ///
+    /// Inlined, and each number by itself: or what is usual would go through the memory that this is asked in.
+    #[inline(always)]
+    pub(super) fn new(sighting: &Sighting<T>, shorter: T) -> Self {
+        let tangents = sighting.tangents();
+        let noise = sighting.along(&tangents, shorter * shorter).at_least([T::zero(); 2]);
+        Self { point: sighting.point, normal: sighting.normal, tangents, noise }
+    }
+
+    /// Sum of the variances \[units\].
+    pub(super) fn variance(&self) -> T {
+        self.noise.trace()
+    }
+}
+
 /// What a sighting says to a track.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Compared<T: Real> {
+    /// What is known by then, and how far the contact has moved since the sample before, if it goes on as it did
+    /// \[units\].
+    state: PlaneState<T>,
+    moved: Vector2<T>,
     weighed: Weighed<T>,
     /// From where the track expected the contact to where it was seen, along the tangents \[units\].
     pub(super) innovation: Vector2<T>,
@@ -35,50 +66,75 @@ impl<T: Real> Compared<T> {
     pub(super) const fn surprise(&self) -> T {
         self.weighed.surprise
     }
+
+    /// Sum of the variances of the sighting \[units\].
+    #[inline(always)]
+    pub(super) fn variance(&self) -> T {
+        self.weighed.noise.trace()
+    }
 }
 
 impl<T: Real> Track<T> {
-    /// The first sighting; `shorter` is the reciprocal of the unit of length \[1/m\].
-    pub(super) fn start(sighting: &Sighting<T>, shorter: T) -> Self {
-        Self {
-            point: sighting.point,
-            normal: sighting.normal,
-            tangents: sighting.tangents,
-            state: PlaneState::first(Symmetric::of(&sighting.covariance).scaled(shorter * shorter)),
-        }
+    /// The first sighting.
+    pub(super) fn start(seen: &Seen<T>) -> Self {
+        let Seen { point, normal, tangents, noise } = *seen;
+        Self { point, normal, tangents, state: PlaneState::first(noise) }
     }
 
-    /// What a sighting says in the state that the track has come to by now, if the contact has moved so far \[units\]
-    /// since the sample before. `None` on another side of the body, or where both are certain.
+    /// What a sighting says after a time \[units\]. `None` on another side of the body, or where both are certain.
     #[inline(always)]
-    pub(super) fn compare(
+    pub(super) fn compare(&self, sighting: &Sighting<T>, time: T, shorter: T) -> Option<Compared<T>> {
+        let noise = |tangents: &_| sighting.along(tangents, shorter * shorter);
+        self.weigh(&sighting.point, &sighting.normal, noise, time, shorter)
+    }
+
+    /// The same of one in its own tangents.
+    pub(super) fn compare_seen(&self, seen: &Seen<T>, time: T, shorter: T) -> Option<Compared<T>> {
+        let noise = |[e1, e2]: &[Vector3<T>; 2]| {
+            let first = &seen.tangents[0];
+            seen.noise.turned(&Vector2::new(e1.dot(first), e2.dot(first)))
+        };
+        self.weigh(&seen.point, &seen.normal, noise, time, shorter)
+    }
+
+    #[inline(always)]
+    fn weigh(
         &self,
-        sighting: &Sighting<T>,
-        (state, moved): &(PlaneState<T>, Vector2<T>),
+        point: &Vector3<T>,
+        normal: &Vector3<T>,
+        noise: impl FnOnce(&[Vector3<T>; 2]) -> Symmetric<T>,
+        time: T,
         shorter: T,
     ) -> Option<Compared<T>> {
-        let fold = Fold::new(&self.normal, &sighting.normal)?;
-        let along = fold.along(&self.tangents);
-        let innovation = along(&(sighting.point - self.point)) * shorter - moved;
-        // The covariance, turned from the tangents there to those here: both pairs are right-handed.
-        let noise = Symmetric::of(&sighting.covariance).turned(&along(&sighting.tangents[0]));
-        let weighed = state.weigh(&innovation, noise.scaled(shorter * shorter))?;
-        Some(Compared { weighed, innovation, along: fold.direction() })
+        let fold = Fold::new(&self.normal, normal)?;
+        let noise = noise(&fold.carried(&self.tangents));
+        let (state, moved) = self.state.wait(time);
+        let innovation = fold.along(&self.tangents)(&(point - self.point)) * shorter - moved;
+        let weighed = state.weigh(&innovation, noise)?;
+        Some(Compared { state, moved, weighed, innovation, along: fold.direction() })
     }
 
-    /// Takes a sighting that was compared, in the state that the track has come to by now, after the contact has moved so
-    /// far \[units\].
+    /// Takes a sighting that was compared. `None` if a number is none then.
     #[inline(always)]
     pub(super) fn take<S: ActiveSurface<T>>(
         &mut self,
         surface: &S,
         compared: &Compared<T>,
-        (mut state, moved): (PlaneState<T>, Vector2<T>),
         unit: T,
-    ) {
-        let corrected = state.take(&compared.weighed);
+    ) -> Option<()> {
+        let (state, corrected, sound) = compared.state.with(&compared.weighed);
         self.state = state;
-        self.shift(surface, &(moved + corrected), &compared.along, unit);
+        if !sound {
+            // No more is left of the position than either of the two says. Rounding may leave less than no noise.
+            let (before, noise) = (&compared.state, &compared.weighed.noise);
+            let least = |known, said| larger(smaller(known, said), T::zero());
+            self.state.mend(
+                [least(before.positions.xx, noise.xx), least(before.positions.yy, noise.yy)],
+                [before.velocities.xx, before.velocities.yy],
+            )?;
+        }
+        self.shift(surface, &(compared.moved + corrected), &compared.along, unit);
+        Some(())
     }
 
     /// Without a sighting: moves as far as is expected \[units\].
@@ -105,10 +161,27 @@ impl<T: Real> Track<T> {
         let size = |v: &Vector3<T>| v.x.abs() + v.y.abs() + v.z.abs();
         let reach = size(&way) * T::literal(2.0) + size(&beside) * (T::EPSILON * T::literal(256.0));
         let line = Line { point: beside, direction: *along };
-        let Some((point, normal)) = onto_surface(surface, line, reach) else { return };
+        match onto_surface(surface, &line, reach) {
+            Some((point, normal)) => self.settle(point, normal),
+            None => self.settle_beside(surface, line, reach),
+        }
+    }
+
+    /// Past an end or an edge.
+    #[cold]
+    #[inline(never)]
+    fn settle_beside<S: ActiveSurface<T>>(&mut self, surface: &S, line: Line<T>, reach: T) {
+        if let Some((point, normal)) = beside_the_line(surface, line, reach) {
+            self.settle(point, normal);
+        }
+    }
+
+    /// Moves to a place of the surface, and carries the tangents along.
+    #[inline(always)]
+    fn settle(&mut self, point: Vector3<T>, normal: Vector3<T>) {
         let Some(fold) = Fold::new(&normal, &self.normal) else { return };
         // Across the normal however it was rounded before; of unit length but for rounding, which must not add up.
-        let first = fold.flat(e1);
+        let first = fold.flat(&self.tangents[0]);
         let first = first * (T::literal(1.5) - first.norm_squared() * T::literal(0.5));
         self.tangents = [first, normal.cross(&first)];
         (self.point, self.normal) = (point, normal);

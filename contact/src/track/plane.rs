@@ -1,6 +1,6 @@
 //! The filter in the tangent plane: position and velocity, driven by white acceleration.
 
-use fingertip_surfaces::numeric::vectors::{larger, smaller};
+use fingertip_surfaces::numeric::vectors::larger;
 use fingertip_wrench::Real;
 use nalgebra::{Matrix2, Vector2};
 
@@ -24,14 +24,13 @@ pub(super) struct Weighed<T: Real> {
     /// Inverse of the covariance of the innovation, and its product with the innovation.
     inverse: Symmetric<T>,
     weighted: Vector2<T>,
-    noise: Symmetric<T>,
+    pub(super) noise: Symmetric<T>,
     /// Normalised innovation squared: χ² of two degrees of freedom.
     pub(super) surprise: T,
 }
 
 impl<T: Real> PlaneState<T> {
     /// A first measurement: nothing is known of the velocity but that its deviation is 1.
-    #[inline]
     pub(super) fn first(noise: Symmetric<T>) -> Self {
         Self {
             velocity: Vector2::zeros(),
@@ -65,8 +64,8 @@ impl<T: Real> PlaneState<T> {
         (waited, moved)
     }
 
-    /// What a measurement says that is this far off. `None` if it and what is known are both certain, or its
-    /// numbers are out of range.
+    /// What a measurement says that is this far off. `None` if it and what is known are both certain. The surprise of
+    /// numbers that are out of range is none.
     #[inline(always)]
     pub(super) fn weigh(&self, innovation: &Vector2<T>, noise: Symmetric<T>) -> Option<Weighed<T>> {
         let p = &self.positions;
@@ -74,59 +73,80 @@ impl<T: Real> PlaneState<T> {
         let product = xx * yy;
         // Of less than full rank but for rounding.
         let least = product * (T::EPSILON * T::literal(4.0));
-        let determinant = larger(product - xy * xy, least);
+        let mut determinant = product - xy * xy;
+        if !(determinant > least) {
+            determinant = least_determinant(least)?;
+        }
         let scale = T::one() / determinant;
         let inverse = Symmetric { xx: yy * scale, xy: -(xy * scale), yy: xx * scale };
         let weighted = inverse.times(innovation);
         let surprise = innovation.dot(&weighted);
-        (determinant > T::zero() && (scale + surprise).is_number()).then_some(Weighed {
-            inverse,
-            weighted,
-            noise,
-            surprise,
-        })
+        Some(Weighed { inverse, weighted, noise, surprise })
     }
 
-    /// Takes the measurement: how far the position is moved by it.
+    /// What is known with the measurement taken, how far the position is moved by it, and whether all is sound: if not,
+    /// [`mend`](Self::mend) helps.
     ///
     /// With `S = P + R`, the gain is `P S⁻¹`. The new covariance `P − P S⁻¹ P = R S⁻¹ P` is formed as the product,
     /// which has no cancellation.
     #[inline(always)]
-    pub(super) fn take(&mut self, weighed: &Weighed<T>) -> Vector2<T> {
+    pub(super) fn with(&self, weighed: &Weighed<T>) -> (Self, Vector2<T>, bool) {
         let Weighed { inverse, weighted, noise, .. } = weighed;
         let (p, m, v) = (self.positions, self.mixed, self.velocities);
         let moved = p.times(weighted);
-        self.velocity +=
-            Vector2::new(m.m11 * weighted.x + m.m21 * weighted.y, m.m12 * weighted.x + m.m22 * weighted.y);
-        // Rows: the gains of the position, and of the velocity.
-        let [first, second] = p.rows().map(|row| inverse.times(&row));
-        let [faster, other] =
-            [Vector2::new(m.m11, m.m21), Vector2::new(m.m12, m.m22)].map(|row| inverse.times(&row));
-        let [with_first, with_second] = [&faster, &other].map(|row| noise.times(row));
-        self.mixed = Matrix2::new(with_first.x, with_second.x, with_first.y, with_second.y);
-        let sharper = noise.times(&first);
-        let positions = Symmetric { xx: sharper.x, xy: sharper.y, yy: noise.times(&second).y };
+        let velocity = Vector2::new(
+            self.velocity.x + m.m11 * weighted.x + m.m21 * weighted.y,
+            self.velocity.y + m.m12 * weighted.x + m.m22 * weighted.y,
+        );
+        let (i, r) = (inverse, noise);
+        // `R S⁻¹`, and `S⁻¹ P_xv`.
+        let left = Matrix2::new(
+            r.xx * i.xx + r.xy * i.xy,
+            r.xx * i.xy + r.xy * i.yy,
+            r.xy * i.xx + r.yy * i.xy,
+            r.xy * i.xy + r.yy * i.yy,
+        );
+        let [first, second] = [Vector2::new(m.m11, m.m21), Vector2::new(m.m12, m.m22)];
+        let (faster, other) = (i.times(&first), i.times(&second));
+        let positions = Symmetric {
+            xx: left.m11 * p.xx + left.m12 * p.xy,
+            xy: left.m11 * p.xy + left.m12 * p.yy,
+            yy: left.m21 * p.xy + left.m22 * p.yy,
+        };
+        let mixed = left * m;
         let velocities = Symmetric {
-            xx: v.xx - (faster.x * m.m11 + faster.y * m.m21),
-            xy: v.xy - (faster.x * m.m12 + faster.y * m.m22),
-            yy: v.yy - (other.x * m.m12 + other.y * m.m22),
+            xx: v.xx - first.x * faster.x - first.y * faster.y,
+            xy: v.xy - first.x * other.x - first.y * other.y,
+            yy: v.yy - second.x * other.x - second.y * other.y,
         };
-        (self.positions, self.velocities) = if positions.is_covariance() && velocities.is_covariance() {
-            (positions, velocities)
-        } else {
-            // No more is left of the position than either of the two says.
-            let bounds = [smaller(p.xx, noise.xx), smaller(p.yy, noise.yy)];
-            (
-                positions.at_least(bounds.map(|bound| bound * T::EPSILON)),
-                velocities.at_least([v.xx * T::EPSILON, v.yy * T::EPSILON]),
-            )
-        };
-        moved
+        let all = (velocity.x + velocity.y)
+            + (positions.xx + positions.yy)
+            + ((mixed.m11 + mixed.m12) + (mixed.m21 + mixed.m22));
+        // No variance of the velocity has grown, and what is mixed of one kind is no more than its variances allow.
+        let sound = positions.is_definite() & velocities.is_definite() & all.is_number();
+        (Self { velocity, positions, mixed, velocities }, moved, sound)
+    }
+
+    /// With variances that are no less than what rounding leaves of these. `None` if a number is none.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn mend(&mut self, positions: [T; 2], velocities: [T; 2]) -> Option<()> {
+        if !(self.positions.is_covariance() && self.velocities.is_covariance()) {
+            self.positions = self.positions.at_least(positions.map(|bound| bound * T::EPSILON));
+            self.velocities = self.velocities.at_least(velocities.map(|bound| bound * T::EPSILON));
+        }
+        self.is_number().then_some(())
     }
 
     /// Whether all of it is a number.
-    #[inline]
     pub(super) fn is_number(&self) -> bool {
         (self.velocity.sum() + self.positions.sum() + self.mixed.sum() + self.velocities.sum()).is_number()
     }
+}
+
+/// What a determinant that is less counts as.
+#[cold]
+#[inline(never)]
+fn least_determinant<T: Real>(least: T) -> Option<T> {
+    (least > T::zero()).then_some(least)
 }

@@ -3,8 +3,10 @@
 use fingertip_surfaces::SmoothSurface;
 use fingertip_surfaces::numeric::vectors::{larger, tangents};
 use fingertip_wrench::{Real, Wrench};
-use nalgebra::{Matrix2, Vector3};
+use nalgebra::{Matrix2, Vector2, Vector3};
 
+use super::symmetric::Symmetric;
+use crate::uncertainty::LineSpread;
 use crate::{Contact, ContactCovariance, ContactJacobian, WrenchSpread};
 
 /// Where one sample found the contact, with the covariance that it has under *this* force: noise of the position
@@ -30,8 +32,16 @@ use crate::{Contact, ContactCovariance, ContactJacobian, WrenchSpread};
 pub struct Sighting<T: Real> {
     pub(super) point: Vector3<T>,
     pub(super) normal: Vector3<T>,
-    pub(super) tangents: [Vector3<T>; 2],
-    pub(super) covariance: Matrix2<T>,
+    spread: Spread<T>,
+}
+
+/// What is known of the covariance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Spread<T: Real> {
+    /// All, along two tangents that are right-handed with the normal.
+    Along([Vector3<T>; 2], Symmetric<T>),
+    /// What it is in whatever tangents: told in those of the track there is nothing to turn.
+    OfLine(LineSpread<T>),
 }
 
 impl<T: Real> Sighting<T> {
@@ -71,10 +81,11 @@ impl<T: Real> Sighting<T> {
         let [e1, e2] = tangents;
         let (first, both, second) = (covariance.m11, covariance.m12, covariance.m22);
         let rounding = T::one() + T::EPSILON * T::literal(64.0);
+        let both_alike = Symmetric { xx: first, xy: both, yy: second };
         let possible =
             first >= T::zero() && second >= T::zero() && both.abs() <= larger(first, second) * rounding;
         let finite = (e1.sum() + e2.sum() + normal.sum() + point.sum() + first + second).is_number();
-        (possible && finite).then_some(Self { point, normal, tangents, covariance })
+        (possible && finite).then_some(Self { point, normal, spread: Spread::Along(tangents, both_alike) })
     }
 
     /// Of what [`PointContact`](crate::PointContact) found in a wrench. `None` where the force grazes.
@@ -85,12 +96,10 @@ impl<T: Real> Sighting<T> {
         wrench: &Wrench<T>,
         spread: impl Into<WrenchSpread<'a, T>>,
     ) -> Option<Self> {
-        let covariance = ContactCovariance::point_contact_position(contact, wrench, spread)?;
-        let (first, second) = tangents(&contact.normal);
-        // A covariance that is a number is one, and its tangents are numbers.
+        let line = LineSpread::new(contact, wrench, &spread.into());
         let (point, normal) = (contact.point, contact.normal);
-        let finite = (point.sum() + normal.sum()).is_number();
-        finite.then_some(Self { point, normal, tangents: [first, second], covariance })
+        let place = (point.x + point.y + point.z) + (normal.x + normal.y + normal.z);
+        (place + line.most()).is_number().then_some(Self { point, normal, spread: Spread::OfLine(line) })
     }
 
     /// Of what [`SoftFinger`](crate::SoftFinger) found on a surface. `None` where no derivative exists, as
@@ -132,16 +141,37 @@ impl<T: Real> Sighting<T> {
     }
 
     /// The two unit vectors that the covariance refers to.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub const fn tangents(&self) -> &[Vector3<T>; 2] {
-        &self.tangents
+    pub fn tangents(&self) -> [Vector3<T>; 2] {
+        match &self.spread {
+            Spread::Along(tangents, _) => *tangents,
+            Spread::OfLine(_) => tangents(&self.normal).into(),
+        }
     }
 
     /// Covariance of the position along the tangents \[m²\].
     #[inline]
     #[must_use]
-    pub const fn covariance(&self) -> &Matrix2<T> {
-        &self.covariance
+    pub fn covariance(&self) -> Matrix2<T> {
+        match &self.spread {
+            Spread::Along(_, covariance) => covariance.matrix(),
+            Spread::OfLine(line) => {
+                let covariance = Symmetric::new(line.along(&self.tangents(), T::one()));
+                covariance.at_least([T::zero(); 2]).matrix()
+            }
+        }
+    }
+
+    /// The covariance along two other tangents, right-handed with the normal, in another unit: times a scale \[m²\]. Where
+    /// one direction is beyond compare with another, rounding may leave less than no variance.
+    #[inline(always)]
+    pub(super) fn along(&self, others: &[Vector3<T>; 2], scale: T) -> Symmetric<T> {
+        match &self.spread {
+            Spread::Along([e1, _], covariance) => {
+                covariance.turned(&Vector2::new(others[0].dot(e1), others[1].dot(e1))).scaled(scale)
+            }
+            Spread::OfLine(line) => Symmetric::new(line.along(others, scale)),
+        }
     }
 }

@@ -13,10 +13,9 @@ pub(super) struct Symmetric<T> {
 }
 
 impl<T: Real> Symmetric<T> {
-    /// Of a matrix that is symmetric but for rounding.
     #[inline(always)]
-    pub(super) fn of(m: &Matrix2<T>) -> Self {
-        Self { xx: m.m11, xy: (m.m12 + m.m21) * T::literal(0.5), yy: m.m22 }
+    pub(super) const fn new([xx, xy, yy]: [T; 3]) -> Self {
+        Self { xx, xy, yy }
     }
 
     #[inline(always)]
@@ -27,11 +26,6 @@ impl<T: Real> Symmetric<T> {
     #[inline(always)]
     pub(super) fn matrix(&self) -> Matrix2<T> {
         Matrix2::new(self.xx, self.xy, self.xy, self.yy)
-    }
-
-    #[inline(always)]
-    pub(super) const fn rows(&self) -> [Vector2<T>; 2] {
-        [Vector2::new(self.xx, self.xy), Vector2::new(self.xy, self.yy)]
     }
 
     #[inline(always)]
@@ -69,6 +63,12 @@ impl<T: Real> Symmetric<T> {
         self.xx > T::zero() && self.yy > T::zero() && self.xy * self.xy <= self.xx * self.yy
     }
 
+    /// [`is_covariance`](Self::is_covariance) with variance in every direction, for less.
+    #[inline(always)]
+    pub(super) fn is_definite(&self) -> bool {
+        self.xx > T::zero() && self.xy * self.xy < self.xx * self.yy
+    }
+
     /// Such that its variances are no less than this, and no direction has a negative one: where noise in one direction
     /// is beyond compare with that in the other, rounding may leave neither.
     #[inline(always)]
@@ -91,7 +91,7 @@ mod tests {
             let m = Matrix2::new(xx, xy, xy, yy);
             let c = Rotation2::<f64>::new(angle);
             let expected = c.matrix() * m * c.matrix().transpose();
-            let turned = Symmetric::of(&m).turned(&Vector2::new(angle.cos(), angle.sin()));
+            let turned = Symmetric { xx, xy, yy }.turned(&Vector2::new(angle.cos(), angle.sin()));
             prop_assert!((turned.matrix() - expected).norm() < 1e-14);
             prop_assert!((turned.trace() - (xx + yy)).abs() < 1e-14);
         }

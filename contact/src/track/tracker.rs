@@ -5,7 +5,7 @@ use fingertip_wrench::Real;
 use nalgebra::Vector2;
 
 use super::bad_track::is_ordinary;
-use super::followed::Track;
+use super::followed::{Seen, Track};
 use super::{BadTrack, Continuity, Sighting, Tracked};
 
 const WHAT: &str = "a tracker";
@@ -147,78 +147,66 @@ impl<T: Real> Tracker<T> {
         if !(time <= T::literal(PAUSE)) {
             self.reset();
         }
-        match sighting {
+        let said = match sighting {
             Some(sighting) => self.see(surface, sighting, time),
             None => self.coast(surface, time),
-        }
+        }?;
+        // Here alone, so that of a track only that is read which is asked for.
+        self.track.as_ref().map(|track| said.of(track, self.speed, self.unit))
     }
 
     #[inline(always)]
-    fn see<S: ActiveSurface<T>>(
-        &mut self,
-        surface: &S,
-        sighting: &Sighting<T>,
-        time: T,
-    ) -> Option<Tracked<T>> {
-        let variance = self.variance(sighting);
+    fn see<S: ActiveSurface<T>>(&mut self, surface: &S, sighting: &Sighting<T>, time: T) -> Option<Said<T>> {
+        if let Some(track) = &mut self.track {
+            if let Some(compared) = track.compare(sighting, time, self.shorter)
+                && compared.surprise() <= self.gate
+            {
+                if track.take(surface, &compared, self.unit).is_none() {
+                    return self.forget();
+                }
+                self.rival = None;
+                self.sample = compared.variance();
+                let (innovation, surprise) = (compared.innovation, compared.surprise());
+                return Some(Said { continuity: Continuity::Followed, innovation, surprise });
+            }
+        }
+        self.doubt(surface, Seen::new(sighting, self.shorter), time)
+    }
+
+    /// The first sample, or one that may be of another contact: of the one that the sample before was of, if that was in
+    /// doubt, too.
+    #[cold]
+    #[inline(never)]
+    fn doubt<S: ActiveSurface<T>>(&mut self, surface: &S, seen: Seen<T>, time: T) -> Option<Said<T>> {
+        let variance = seen.variance();
         if !variance.is_number() {
             // It says nothing.
             return self.coast(surface, time);
         }
-        let Some(track) = &mut self.track else { return self.start(*sighting) };
-        let now = track.state.wait(time);
-        match track.compare(sighting, &now, self.shorter) {
-            Some(compared) if compared.surprise() <= self.gate => {
-                track.take(surface, &compared, now, self.unit);
-                if !track.state.is_number() {
-                    return self.forget();
-                }
-                self.rival = None;
-                self.sample = variance;
-                let (innovation, surprise) = (compared.innovation, compared.surprise());
-                let said = Said { continuity: Continuity::Followed, innovation, surprise };
-                Some(said.of(track, self.speed, self.unit))
-            }
-            _ => self.doubt(surface, *sighting, time),
-        }
-    }
-
-    /// Sum of the variances of a sighting [units].
-    #[inline(always)]
-    fn variance(&self, sighting: &Sighting<T>) -> T {
-        sighting.covariance.trace() * (self.shorter * self.shorter)
-    }
-
-    /// The sample may be of another contact: of the one that the sample before was of, if that was in doubt, too.
-    #[cold]
-    #[inline(never)]
-    fn doubt<S: ActiveSurface<T>>(
-        &mut self,
-        surface: &S,
-        sighting: Sighting<T>,
-        time: T,
-    ) -> Option<Tracked<T>> {
+        let Some(track) = &mut self.track else {
+            self.track = Some(Track::start(&seen));
+            self.sample = variance;
+            return self.checked(Said::plainly(Continuity::New));
+        };
         // Once more, since to carry it here would cost the samples that are not in doubt.
         let (shorter, unit) = (self.shorter, self.unit);
-        let track = self.track.as_mut()?;
-        let now = track.state.wait(time);
-        let compared = track.compare(&sighting, &now, shorter);
+        let compared =
+            track.compare_seen(&seen, time, shorter).filter(|compared| compared.surprise().is_number());
         let mut continuity = Continuity::Doubted;
         let follow = |mut rival: Track<T>| {
-            let then = rival.state.wait(time);
-            let again = rival.compare(&sighting, &then, shorter)?;
-            (again.surprise() <= self.gate).then(|| {
-                rival.take(surface, &again, then, unit);
-                rival
-            })
+            let again = rival.compare_seen(&seen, time, shorter)?;
+            if !(again.surprise() <= self.gate) {
+                return None;
+            }
+            rival.take(surface, &again, unit).map(|()| rival)
         };
         if let Some(rival) = self.rival.and_then(follow) {
             (self.track, self.rival) = (Some(rival), None);
-            self.sample = self.variance(&sighting);
+            self.sample = variance;
             continuity = Continuity::New;
         } else {
-            self.rival = Some(Track::start(&sighting, shorter));
-            track.move_on(surface, now, unit);
+            self.rival = Some(Track::start(&seen));
+            track.move_on(surface, track.state.wait(time), unit);
         }
         let (innovation, surprise) = match compared {
             Some(compared) => (compared.innovation, compared.surprise()),
@@ -226,12 +214,12 @@ impl<T: Real> Tracker<T> {
             None if continuity == Continuity::Doubted => (Vector2::zeros(), T::GREATEST),
             None => (Vector2::zeros(), T::zero()),
         };
-        self.say(&Said { continuity, innovation, surprise })
+        self.checked(Said { continuity, innovation, surprise })
     }
 
     #[cold]
     #[inline(never)]
-    fn coast<S: ActiveSurface<T>>(&mut self, surface: &S, time: T) -> Option<Tracked<T>> {
+    fn coast<S: ActiveSurface<T>>(&mut self, surface: &S, time: T) -> Option<Said<T>> {
         let track = self.track.as_mut()?;
         let now = track.state.wait(time);
         if !(now.0.positions.trace() <= self.sample) {
@@ -239,27 +227,20 @@ impl<T: Real> Tracker<T> {
         }
         self.rival = None;
         track.move_on(surface, now, self.unit);
-        self.say(&Said::plainly(Continuity::Bridged))
+        self.checked(Said::plainly(Continuity::Bridged))
     }
 
-    #[cold]
-    #[inline(never)]
-    fn start(&mut self, sighting: Sighting<T>) -> Option<Tracked<T>> {
-        self.track = Some(Track::start(&sighting, self.shorter));
-        self.sample = self.variance(&sighting);
-        self.say(&Said::plainly(Continuity::New))
-    }
-
-    /// The track in SI units; without one whose numbers are in range, nothing, and it is forgotten.
-    fn say(&mut self, said: &Said<T>) -> Option<Tracked<T>> {
-        match &self.track {
-            Some(track) if track.state.is_number() => Some(said.of(track, self.speed, self.unit)),
-            _ => self.forget(),
+    /// Nothing of a track whose numbers are out of range, and it is forgotten.
+    fn checked(&mut self, said: Said<T>) -> Option<Said<T>> {
+        if self.track.as_ref().is_some_and(|track| track.state.is_number()) {
+            Some(said)
+        } else {
+            self.forget()
         }
     }
 
     #[cold]
-    fn forget(&mut self) -> Option<Tracked<T>> {
+    fn forget(&mut self) -> Option<Said<T>> {
         self.reset();
         None
     }

@@ -1,10 +1,11 @@
 //! The covariance of a contact.
 
 use fingertip_surfaces::SmoothSurface;
+use fingertip_surfaces::numeric::vectors::{larger, tangents};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
 
-use super::{ContactJacobian, GeometrySensitivity, GeometryUncertainty, WrenchSpread};
+use super::{ContactJacobian, GeometrySensitivity, GeometryUncertainty, LineSpread, WrenchSpread};
 use crate::Contact;
 
 /// How noise of the wrench and of the geometry spreads a contact, to first order: the covariance
@@ -101,14 +102,19 @@ impl<T: Real> ContactCovariance<T> {
 
     /// The same, straight from a contact that [`PointContact`](crate::PointContact) found in a wrench, on
     /// whatever surface: its curvature does not matter. `None` where the force grazes.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn point_contact_position<'a>(
         contact: &Contact<T>,
         wrench: &Wrench<T>,
         spread: impl Into<WrenchSpread<'a, T>>,
     ) -> Option<Matrix2<T>> {
-        ContactJacobian::point_position_covariance(contact, wrench, spread.into())
+        let (first, second) = tangents(&contact.normal);
+        let [c11, c12, c22] =
+            LineSpread::new(contact, wrench, &spread.into()).along(&[first, second], T::one());
+        // Asked last: a question half way would cost more.
+        let known = |variance| larger(variance, T::zero());
+        (c11 + c22).is_number().then_some(Matrix2::new(known(c11), c12, c12, known(c22)))
     }
 
     /// The same, straight from a contact that [`SoftFinger`](crate::SoftFinger) found on a surface: the

@@ -6,6 +6,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Matrix2, Matrix3, Vector3, Vector6};
 
 use super::WrenchSpread;
+use super::line_spread::{Across, congruence};
 use super::sinking::Sinking;
 use crate::Contact;
 
@@ -223,20 +224,7 @@ impl<T: Real> ContactJacobian<T> {
         in_range.then_some(jacobian)
     }
 
-    /// The covariance of the position of a point contact, straight from the contact.
-    #[inline(always)]
-    pub(super) fn point_position_covariance(
-        contact: &Contact<T>,
-        wrench: &Wrench<T>,
-        spread: WrenchSpread<'_, T>,
-    ) -> Option<Matrix2<T>> {
-        // What is out of range makes a covariance that is none.
-        let (jacobian, _) = Self::unchecked_of_point(contact, wrench, |_, _| Matrix2::zeros());
-        let covariance = jacobian.position_covariance(spread);
-        (covariance.m11 + covariance.m22).is_number().then_some(covariance)
-    }
-
-    /// And whether all of it is a number.
+    /// The derivatives of a point contact, and whether all of them are numbers.
     #[inline(always)]
     fn unchecked_of_point(
         contact: &Contact<T>,
@@ -245,15 +233,9 @@ impl<T: Real> ContactJacobian<T> {
     ) -> (Self, bool) {
         let (e1, e2) = tangents(&contact.normal);
         let bend = bend(&e1, &e2);
-        let f = &contact.force;
-        let inverse = T::one() / f.dot(&contact.normal);
+        let beside = Across::new(&contact.force, &contact.normal, &wrench.torque());
+        let (inverse, pitch, across) = (beside.inverse, beside.pitch, [e1, e2].map(|e| beside.of(&e)));
         let adjugate = Matrix2::new(T::zero(), -inverse, inverse, T::zero());
-        // In units of the pressing force: no square leaves the range.
-        let leaning = f * inverse;
-        let part = T::one() / leaning.norm_squared();
-        let pitch = leaning.dot(&wrench.torque()) * inverse * part;
-        // dp = f·(dm − c × df − p df)/|f|² takes what is along the force.
-        let across = [e1, e2].map(|e| e - leaning * (leaning.dot(&e) * part));
         let in_range = (across[0].sum() + across[1].sum() + inverse + bend.sum() + pitch).is_number();
         let jacobian = Self {
             tangents: [e1, e2],
@@ -293,16 +275,7 @@ impl<T: Real> ContactJacobian<T> {
         }
         let [e1, e2] = &self.across;
         let [c11, c12, c22] = if self.is_soft {
-            let [xx, xy, xz, yy, yz, zz] = wrench.torque_about(&self.point);
-            let with = |e: &Vector3<T>| {
-                Vector3::new(
-                    xx * e.x + xy * e.y + xz * e.z,
-                    xy * e.x + yy * e.y + yz * e.z,
-                    xz * e.x + yz * e.y + zz * e.z,
-                )
-            };
-            let (with_first, with_second) = (with(e1), with(e2));
-            [e1.dot(&with_first), e1.dot(&with_second), e2.dot(&with_second)]
+            congruence(&wrench.torque_about(&self.point), &self.across)
         } else {
             // `dc = n × b/(f·n)`: a quarter turn, stretched.
             let [c11, c12, c22] = wrench.combined(&self.row(e1), &self.row(e2));

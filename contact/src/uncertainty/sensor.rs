@@ -138,13 +138,19 @@ impl<T: Real> WrenchNoise<T> {
         Ok(Self { floor, relative })
     }
 
+    /// Variances of the components of a wrench, which are independent \[N², (N·m)²\]: as
+    /// [`WrenchSpread::Independent`](crate::WrenchSpread::Independent) they cost less than as a covariance.
+    #[inline]
+    #[must_use]
+    pub fn variances(&self, wrench: &Wrench<T>) -> Vector6<T> {
+        let proportional = wrench.components() * self.relative;
+        self.floor.component_mul(&self.floor) + proportional.component_mul(&proportional)
+    }
+
     /// Covariance of a wrench, its components independent.
     #[must_use]
     pub fn covariance(&self, wrench: &Wrench<T>) -> Matrix6<T> {
-        let proportional = wrench.components() * self.relative;
-        Matrix6::from_diagonal(
-            &(self.floor.component_mul(&self.floor) + proportional.component_mul(&proportional)),
-        )
+        Matrix6::from_diagonal(&self.variances(wrench))
     }
 }
 

@@ -79,6 +79,34 @@ impl<T: Real> WrenchSpread<'_, T> {
         }
     }
 
+    /// The same of what is left of the torque beside a wrench of the pitch `p` whose line runs through that point,
+    /// `m − c × f − p f`: with `K = [c] + p` it is `Σ_mm − KΣ_fm − (KΣ_fm)ᵀ + KΣ_ffKᵀ`.
+    #[inline(always)]
+    pub(super) fn torque_beside(&self, c: &Vector3<T>, p: T) -> [T; 6] {
+        let [xx, xy, xz, yy, yz, zz] = match self {
+            Self::Full(full) => return full_torque_beside(full, c, p),
+            _ => self.torque_about(c),
+        };
+        match self {
+            Self::Independent(v) => {
+                let square = p * p;
+                [
+                    xx + square * v[0],
+                    xy + p * c.z * (v[0] - v[1]),
+                    xz + p * c.y * (v[2] - v[0]),
+                    yy + square * v[1],
+                    yz + p * c.x * (v[1] - v[2]),
+                    zz + square * v[2],
+                ]
+            }
+            Self::Isotropic { force, .. } => {
+                let more = p * p * *force;
+                [xx + more, xy, xz, yy + more, yz, zz + more]
+            }
+            Self::Full(_) => [xx, xy, xz, yy, yz, zz],
+        }
+    }
+
     /// The covariances of two linear combinations of `Fx … Tz`: first with first, first with second,
     /// second with second.
     #[inline(always)]
@@ -123,6 +151,32 @@ fn full_torque_about<T: Real>(full: &Matrix6<T>, c: &Vector3<T>) -> [T; 6] {
     [mx[3] - (xx + xx), my[3] - xy, mz[3] - xz, my[4] - (yy + yy), mz[4] - yz, mz[5] - (zz + zz)]
 }
 
+/// As [`full_torque_about`], in sums that each go on from a number which is needed no more: a machine that multiplies
+/// and adds in one instruction so copies none.
+#[inline(always)]
+fn full_torque_beside<T: Real>(full: &Matrix6<T>, c: &Vector3<T>, p: T) -> [T; 6] {
+    let half = T::literal(0.5);
+    let (h, q) = (c * half, p * half);
+    let [x, y, z, mx, my, mz] = &full.data.0;
+    let row = |v: &[T; 6]| {
+        Vector3::new(
+            v[3] + h.z * v[1] - h.y * v[2] - q * v[0],
+            v[4] + h.x * v[2] - h.z * v[0] - q * v[1],
+            v[5] + h.y * v[0] - h.x * v[1] - q * v[2],
+        )
+    };
+    let (x, y, z) = (row(x), row(y), row(z));
+    let (d, r) = (c + c, p + p);
+    [
+        mx[3] - d.y * z.x + d.z * y.x - r * x.x,
+        my[3] - c.y * z.y + c.z * y.y - c.z * x.x + c.x * z.x - p * (x.y + y.x),
+        mz[3] - c.y * z.z + c.z * y.z - c.x * y.x + c.y * x.x - p * (x.z + z.x),
+        my[4] - d.z * x.y + d.x * z.y - r * y.y,
+        mz[4] - c.z * x.z + c.x * z.z - c.x * y.y + c.y * x.y - p * (y.z + z.y),
+        mz[5] - d.x * y.z + d.y * x.z - r * z.z,
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     use nalgebra::{Matrix6, Vector3, Vector6};
@@ -141,6 +195,12 @@ mod tests {
         for (k, (i, j)) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].into_iter().enumerate() {
             let exact = row(i).dot(&(full * row(j)));
             assert!((torque[k] - exact).abs() < 1e-13 * full.amax(), "{i} {j}: {} {exact}", torque[k]);
+        }
+        let beside = some.torque_beside(&c, 0.3);
+        let row_beside = |k: usize| row(k) - Vector6::ith(k, 0.3);
+        for (k, (i, j)) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].into_iter().enumerate() {
+            let exact = row_beside(i).dot(&(full * row_beside(j)));
+            assert!((beside[k] - exact).abs() < 1e-13 * full.amax(), "{i} {j}: {} {exact}", beside[k]);
         }
         let both = some.combined(&row(0), &row(1));
         for (found, exact) in both.iter().zip([torque[0], torque[1], torque[3]]) {

@@ -123,9 +123,9 @@ fn a_rolling_contact_is_followed_closer_than_a_sample() {
     assert!(firm.tracked < 0.12e-3 && firm.delay <= 0.015 && firm.lost <= 2, "{firm:?}");
 }
 
-/// The median over the sensors.
+/// The median over the sensors, with their flaws and the errors of their calibration, and without.
 #[test]
-#[ignore = "ninety runs of nine seconds each take a while"]
+#[ignore = "180 runs of nine seconds each take a while"]
 fn rolling_contacts_on_many_sensors() {
     for force in [0.1, 1.0] {
         for within in [0.03, 0.1, 0.3] {
@@ -143,6 +143,8 @@ fn rolling_contacts_on_many_sensors() {
                     of(|run| run.delay) * 1e3,
                     runs.iter().map(|run| run.lost).sum::<usize>(),
                 );
+                let (most, latest) = if force < 0.5 { (0.6e-3, 0.040) } else { (0.12e-3, 0.015) };
+                assert!(of(|run| run.tracked) <= most && of(|run| run.delay) <= latest, "{force} {within} {name}");
             }
         }
     }

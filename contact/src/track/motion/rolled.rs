@@ -158,9 +158,9 @@ impl<T: Real> RollingCurvature<T> {
         }
         let Some(fold) = Fold::new(&tracked.normal, &sighting.normal) else { return };
         let seen = way + along(&tracked.tangents, &fold.flat(&(sighting.point - tracked.point))) / self.unit;
-        let turned = sighting.tangents.map(|t| along(&tracked.tangents, &fold.flat(&t)));
+        let turned = sighting.tangents().map(|t| along(&tracked.tangents, &fold.flat(&t)));
         let turn = Matrix2::from_columns(&turned);
-        let noise = turn * sighting.covariance * turn.transpose() / (self.unit * self.unit);
+        let noise = turn * sighting.covariance() * turn.transpose() / (self.unit * self.unit);
         let Some(weight) = noise.try_inverse() else { return };
         let (one, zero) = (T::one(), T::zero());
         let rows = SMatrix::<T, 2, 5>::from_row_slice(&[

@@ -1,9 +1,9 @@
 //! Whatever comes: no NaN goes out, and the next good samples are followed.
 
-use fingertip_contact::{Sighting, Tracked, Tracker};
+use fingertip_contact::{ContactModel, PointContact, Sighting, Tracked, Tracker, WrenchSpread};
 use fingertip_surfaces::{Capsule, Plane, Sphere};
-use fingertip_wrench::Real;
-use nalgebra::{Matrix2, Vector3};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::{Matrix2, Matrix6, Vector3, Vector6};
 use proptest::prelude::*;
 
 fn is_sound<T: Real>(tracked: &Tracked<T>) -> bool {
@@ -227,5 +227,45 @@ fn both_precisions_agree() {
         assert!((wide.point - single.point.map(f64::from)).norm() < 1e-3 * deviation, "{k}");
         assert!((f64::from(single.deviation()) / deviation - 1.0).abs() < 1e-3, "{k}");
         assert_eq!(wide.continuity, single.continuity);
+    }
+}
+
+proptest! {
+    /// Noise of a wrench in which one component is beyond compare with another.
+    #[test]
+    fn any_size_of_noise_of_a_wrench(
+        powers in proptest::array::uniform6(-12.0..12.0_f64), force in -12.0..12.0_f64, lean in -3.0..3.0_f64,
+        pitch in -1e-3..1e-3_f64,
+    ) {
+        fn survives<T: Real>(powers: [f64; 6], force: f64, lean: f64, pitch: f64) -> Result<(), TestCaseError> {
+            let ball = Sphere::new(Vector3::zeros(), T::literal(0.013)).unwrap();
+            let variances = Vector6::from(powers.map(|power| T::literal(10_f64.powf(power))));
+            let full = Matrix6::from_diagonal(&variances);
+            for spread in [WrenchSpread::Independent(variances), WrenchSpread::Full(&full)] {
+                let mut tracker = Tracker::new(T::literal(0.01), T::literal(0.1)).unwrap();
+                for k in 0..10 {
+                    let normal = Vector3::new(0.02 * f64::from(k), 0.1, 1.0).normalize();
+                    let push = Vector3::new(lean, 0.0, -1.0) * 10_f64.powf(force);
+                    let push = Wrench::from_components(&{
+                        let torque = (normal * 0.013).cross(&push) + push * pitch;
+                        Vector6::new(push.x, push.y, push.z, torque.x, torque.y, torque.z).map(T::literal)
+                    });
+                    let Some(found) = PointContact::new(T::zero()).unwrap().resolve(&push, &ball).contact().copied()
+                    else { continue };
+                    let sighting = Sighting::of_point_contact(&found, &push, spread);
+                    if let Some(sighting) = &sighting {
+                        let covariance = sighting.covariance();
+                        prop_assert!(covariance.iter().all(|x| x.is_number()));
+                        prop_assert!(covariance.m11 >= T::zero() && covariance.m22 >= T::zero());
+                    }
+                    if let Some(tracked) = tracker.follow(&ball, sighting.as_ref(), T::literal(1e-3)) {
+                        prop_assert!(is_sound(&tracked), "{tracked:?}");
+                    }
+                }
+            }
+            Ok(())
+        }
+        survives::<f64>(powers, force, lean, pitch)?;
+        survives::<f32>(powers, force, lean, pitch)?;
     }
 }

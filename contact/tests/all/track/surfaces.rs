@@ -1,9 +1,13 @@
 //! Across edges and facets, off the end, and on every side of a body.
 
-use fingertip_contact::{Continuity, Sighting, Tracker};
+use fingertip_contact::{
+    ContactCovariance, ContactJacobian, ContactModel, Continuity, PointContact, Sighting, Tracker,
+};
 use fingertip_surfaces::testing::cube_of_triangles;
 use fingertip_surfaces::{ActiveSurface, CappedCylinder, Mesh, Rectangle, RoundedBox, Sphere};
-use nalgebra::{Matrix2, Vector3};
+use fingertip_wrench::Wrench;
+use nalgebra::{Matrix2, Matrix3, Matrix6, Vector3, Vector6};
+use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
@@ -164,4 +168,41 @@ fn the_frame_is_carried_along() {
         Vector3::new(0.0, 0.001, 0.01),
     );
     stays_in_frame(&cube(0.01), Vector3::new(0.001, 0.002, 0.01));
+}
+
+proptest! {
+    /// What a point contact tells in the tangents of the track is what its derivatives tell in their own.
+    #[test]
+    fn a_point_contact_counts_as_its_derivatives_say(
+        entries in proptest::array::uniform32(-1.0..1.0_f64), lean in -0.8..0.8, aside in -0.8..0.8, pitch in -2e-3..2e-3,
+    ) {
+        let ball = Sphere::new(Vector3::zeros(), 0.013).unwrap();
+        let scale = Vector6::new(1e-2, 1e-2, 1e-2, 1e-4, 1e-4, 1e-4);
+        let root = Matrix6::from_fn(|i, j| entries[(6 * i + j) % 32] * scale[i]);
+        let noise = root * root.transpose() + Matrix6::from_diagonal(&scale.component_mul(&scale)) * 0.1;
+        let model = PointContact::new(0.05).unwrap();
+        let [mut short, mut long] = [Tracker::new(0.01, 0.1).unwrap(); 2];
+        for k in 0..50 {
+            let angle = 0.001 * f64::from(k);
+            let normal = Vector3::new(angle.sin(), 0.1, angle.cos()).normalize();
+            let force = Vector3::new(lean, aside, -1.5);
+            let place = normal * 0.013;
+            let torque = place.cross(&force) + force * pitch;
+            let wrench = Wrench::on_fingertip(force, torque);
+            let found = *model.resolve(&wrench, &ball).contact().unwrap();
+            let by_line = Sighting::of_point_contact(&found, &wrench, &noise).unwrap();
+            let jacobian = ContactJacobian::of_point_contact(&found, &wrench, &Matrix3::zeros()).unwrap();
+            let by_derivatives = Sighting::of(&found, &jacobian, &noise).unwrap();
+            let whole = ContactCovariance::new(&jacobian, &noise).position();
+            prop_assert!((by_line.covariance() - whole).amax() < 1e-12 * whole.amax());
+            let now = short.follow(&ball, Some(&by_line), 1e-3).unwrap();
+            let other = long.follow(&ball, Some(&by_derivatives), 1e-3).unwrap();
+            prop_assert_eq!(now.continuity, other.continuity);
+            prop_assert!((now.point - other.point).norm() < 1e-12);
+            prop_assert!((now.velocity - other.velocity).norm() < 1e-10);
+            let spread = other.position_covariance.amax();
+            prop_assert!((now.position_covariance - other.position_covariance).amax() < 1e-9 * spread);
+            prop_assert!((now.surprise - other.surprise).abs() < 1e-6 * (1.0 + other.surprise));
+        }
+    }
 }
