@@ -144,7 +144,10 @@ fn rolling_contacts_on_many_sensors() {
                     runs.iter().map(|run| run.lost).sum::<usize>(),
                 );
                 let (most, latest) = if force < 0.5 { (0.6e-3, 0.040) } else { (0.12e-3, 0.015) };
-                assert!(of(|run| run.tracked) <= most && of(|run| run.delay) <= latest, "{force} {within} {name}");
+                assert!(
+                    of(|run| run.tracked) <= most && of(|run| run.delay) <= latest,
+                    "{force} {within} {name}"
+                );
             }
         }
     }
