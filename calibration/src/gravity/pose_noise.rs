@@ -292,7 +292,7 @@ mod tests {
     #[test]
     fn noisy_components_count_less() {
         let nothing = vec![DMatrix::zeros(6, 1); 60];
-        let error = |i: usize, a: usize| ((i * (2 * a + 3)) as f64 * 0.7).sin();
+        let error = |i: usize, a: usize| (i as f64 * (0.9 + 0.37 * a as f64)).sin();
         let left: Vec<_> = (0..60)
             .map(|i| Vector6::from_fn(|a, _| if a == 1 { 10.0 * error(i, a) } else { error(i, a) }))
             .collect();

@@ -59,6 +59,7 @@ impl<T: Real> LineSpread<T> {
 
     /// No less than the sum of the two variances along whatever tangents, as what is across the force of a unit vector is
     /// not longer. A number if all is.
+    #[cfg(feature = "track")]
     #[inline(always)]
     pub(crate) fn most(&self) -> T {
         let [xx, _, _, yy, _, zz] = self.torque;
