@@ -157,18 +157,17 @@ impl<T: Real> Tracker<T> {
 
     #[inline(always)]
     fn see<S: ActiveSurface<T>>(&mut self, surface: &S, sighting: &Sighting<T>, time: T) -> Option<Said<T>> {
-        if let Some(track) = &mut self.track {
-            if let Some(compared) = track.compare(sighting, time, self.shorter)
-                && compared.surprise() <= self.gate
-            {
-                if track.take(surface, &compared, self.unit).is_none() {
-                    return self.forget();
-                }
-                self.rival = None;
-                self.sample = compared.variance();
-                let (innovation, surprise) = (compared.innovation, compared.surprise());
-                return Some(Said { continuity: Continuity::Followed, innovation, surprise });
+        if let Some(track) = &mut self.track
+            && let Some(compared) = track.compare(sighting, time, self.shorter)
+            && compared.surprise() <= self.gate
+        {
+            if track.take(surface, &compared, self.unit).is_none() {
+                return self.forget();
             }
+            self.rival = None;
+            self.sample = compared.variance();
+            let (innovation, surprise) = (compared.innovation, compared.surprise());
+            return Some(Said { continuity: Continuity::Followed, innovation, surprise });
         }
         self.doubt(surface, Seen::new(sighting, self.shorter), time)
     }
