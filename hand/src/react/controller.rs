@@ -121,7 +121,7 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
             let friction = belief.rely(known, &finger.force, finger.slip, passed, &self.settings);
             // One whose friction over the factor of safety is no number holds nothing.
             *contact =
-                finger.contact.with_friction(friction).filter(|contact| careful(contact, safety).is_some());
+                finger.contact.with_friction(friction).filter(|contact| contact.with_safety(safety).is_ok());
         }
         let commands = self.commands;
         let unchanged = |state| HandCommand { normal: commands, state, implausible };
@@ -161,7 +161,7 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
         load: &Wrench<T, F>,
     ) -> (Option<[T; N]>, HandState<T, F>) {
         let safety = self.settings.safety;
-        let careful = Grasp::new(contacts.map(|contact| careful(&contact?, safety)));
+        let careful = Grasp::new(contacts.map(|contact| contact?.with_safety(safety).ok()));
         let outcome = if self.without_safety {
             // What it starts from is kept for the grip without safety.
             let mut least = LeastGrip::new();
@@ -212,9 +212,4 @@ impl<T: Real, const N: usize, const ROWS: usize, Belief: FrictionBelief<T>>
         self.least.forget();
         self.without_safety = false;
     }
-}
-
-/// The contact with its friction over the factor of safety; `None` if that is no number.
-fn careful<T: Real, F: Frame>(contact: &GraspContact<T, F>, safety: T) -> Option<GraspContact<T, F>> {
-    contact.with_friction(contact.friction() / safety)
 }
