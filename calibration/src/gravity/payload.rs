@@ -287,7 +287,7 @@ impl PayloadFit {
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let weight = self.weight.norm();
-        let left = self.rms.iter().take(3).map(|rms| rms * rms).sum::<f64>().sqrt();
+        let left = self.force_squares().sqrt();
         let is_bad = 3.0 * self.rms_if_in_base < left
             || self.condition_number > 30.0
             || self.weight_deviation > 0.1 * weight
@@ -299,6 +299,11 @@ impl PayloadFit {
         } else {
             Verdict::Suspect
         }
+    }
+
+    /// Mean square of what is left of a force \[N²\].
+    fn force_squares(&self) -> f64 {
+        self.rms.iter().take(3).map(|rms| rms * rms).sum()
     }
 
     fn rate(&mut self, poses: &[Pose], design: &DMatrix<f64>) {
@@ -322,7 +327,7 @@ impl PayloadFit {
             let left = &other - design * swapped.coefficients;
             self.rms_if_in_base = (left.norm_squared() / left.len().max(1) as f64).sqrt();
         }
-        let rms = (self.rms.iter().take(3).map(|rms| rms * rms).sum::<f64>() / 3.0).sqrt();
+        let rms = (self.force_squares() / 3.0).sqrt();
         if self.rms_if_in_base * 3.0 < rms {
             self.warnings.push(format!(
                 "frames seem to be mixed: the readings fit to {:.3} N if they are in the base frame, to {rms:.3} N as it is",

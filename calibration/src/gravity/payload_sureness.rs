@@ -9,8 +9,6 @@ use super::poses::Pose;
 /// How sure weight and centre are.
 pub(super) struct Sureness {
     noise: PoseNoise,
-    /// What the doubt of the weights of the components adds.
-    besides: Vec<Besides>,
     /// Parameters: of the weight, three of the force at rest, of the centre, three of the torque at rest.
     basis: DMatrix<f64>,
     span: DMatrix<f64>,
@@ -59,9 +57,8 @@ impl Sureness {
             let across = carried(&of_force, &by_torque) + carried(&by_force, &of_torque);
             Besides { changes: joined(&of_force, &across, &of_torque, None), variance: doubt.variance }
         });
-        let besides = besides.collect();
-        let noise = PoseNoise::new(&left, &slopes, &both);
-        Self { noise, besides, basis: weight.basis.clone(), span: centre.span.clone() }
+        let noise = PoseNoise::new(&left, &slopes, &both, besides);
+        Self { noise, basis: weight.basis.clone(), span: centre.span.clone() }
     }
 
     /// What each component should count, and what is not sure of that.
@@ -74,7 +71,7 @@ impl Sureness {
         let count = self.basis.ncols() + self.span.ncols() + 6;
         let mut combination = DVector::zeros(count);
         combination.rows_mut(first, by.len()).copy_from_slice(by);
-        self.noise.of(&combination, &self.besides)
+        self.noise.of(&combination)
     }
 
     /// Of the weight along a direction of the base: deviation \[N\] and freedom, as all below.

@@ -28,6 +28,8 @@ pub(super) struct PoseNoise {
     freedom: Vector6<f64>,
     slopes: Vec<DMatrix<f64>>,
     moves: Vec<DMatrix<f64>>,
+    /// What the doubt of the weights of the components adds.
+    besides: Vec<Besides>,
     /// The units.
     units: Vector6<f64>,
 }
@@ -36,8 +38,14 @@ impl PoseNoise {
     /// Of what is left of each pose, the derivatives of its wrench by the parameters, and those of the parameters by
     /// its wrench (each 6 × parameters). Where what is left does not tell the components apart, all forces are taken for
     /// alike and apart from each other, and all torques.
-    pub(super) fn new(left: &[Vector6<f64>], slopes: &[DMatrix<f64>], moves: &[DMatrix<f64>]) -> Self {
+    pub(super) fn new(
+        left: &[Vector6<f64>],
+        slopes: &[DMatrix<f64>],
+        moves: &[DMatrix<f64>],
+        besides: impl IntoIterator<Item = Besides>,
+    ) -> Self {
         let count = left.len() as f64;
+        let parameters = moves.first().map_or(0, DMatrix::ncols);
         let squares = left.iter().fold(Vector6::zeros(), |sum, r| sum + r.component_mul(r)) / count;
         // Forces and torques have units of their own.
         let units = squares.map(|mean| if mean > 0.0 { mean.sqrt() } else { 1.0 });
@@ -50,12 +58,10 @@ impl PoseNoise {
         });
         let own = (slopes.iter().zip(&moves)).fold(Matrix6::zeros(), |sum, (d, p)| sum + d * p.transpose());
         let mean = |covariance: &Matrix6<f64>| {
-            let parameters = moves.iter().fold(DMatrix::zeros(0, 0), |sum: DMatrix<f64>, p| {
-                let one = p.tr_mul(&(covariance * p));
-                if sum.is_empty() { one } else { sum + one }
-            });
-            let carried =
-                slopes.iter().fold(Matrix6::zeros(), |sum, d| sum + d * &parameters * d.transpose());
+            let moved = moves
+                .iter()
+                .fold(DMatrix::zeros(parameters, parameters), |sum, p| sum + p.tr_mul(&(covariance * p)));
+            let carried = slopes.iter().fold(Matrix6::zeros(), |sum, d| sum + d * &moved * d.transpose());
             let twice = own * covariance;
             covariance * count - twice - twice.transpose() + carried
         };
@@ -66,7 +72,12 @@ impl PoseNoise {
             .map_or_else(|| alike(&freedom, &units), |inverse| inverse.transpose());
         let found = Symmetric::applied(&unbiased.transpose(), &products);
         let covariance = positive(&found, &products, &freedom);
-        Self { covariance, unbiased, freedom, slopes, moves, units }
+        let in_these_units = |besides: Besides| Besides {
+            changes: besides.changes.iter().map(|by| in_units(by, &units)).collect(),
+            ..besides
+        };
+        let besides = besides.into_iter().map(in_these_units).collect();
+        Self { covariance, unbiased, freedom, slopes, moves, besides, units }
     }
 
     /// What each component should count in a fit, by its noise beside that of the two others of its kind; and what is not
@@ -109,7 +120,7 @@ impl PoseNoise {
 
     /// Standard deviation of a combination of the parameters, and the degrees of freedom behind it: `2 v²/Var(v)` of its
     /// variance v (Satterthwaite 1946), a form of what is left.
-    pub(super) fn of(&self, combination: &DVector<f64>, besides: &[Besides]) -> (f64, f64) {
+    pub(super) fn of(&self, combination: &DVector<f64>) -> (f64, f64) {
         let form_of = |moves: &[DMatrix<f64>]| {
             moves.iter().fold(Matrix6::zeros(), |sum, by| {
                 let moved = by * combination;
@@ -122,9 +133,8 @@ impl PoseNoise {
         let uncertain = variance_of_form(&of_left, &self.covariance, &self.slopes, &self.moves);
         let freedom =
             if uncertain > 0.0 { 2.0 * variance * variance / uncertain } else { self.freedom.sum() };
-        for Besides { changes, variance: of_weight } in besides {
-            let changes: Vec<_> = changes.iter().map(|by| in_units(by, &self.units)).collect();
-            variance += 2.0 * of_weight * form_of(&changes).dot(&self.covariance);
+        for Besides { changes, variance: of_weight } in &self.besides {
+            variance += 2.0 * of_weight * form_of(changes).dot(&self.covariance);
         }
         (variance.max(0.0).sqrt(), freedom)
     }
@@ -200,7 +210,7 @@ mod tests {
         // One parameter that follows Fx alone, of one pose: nothing is left of that.
         let only_first = [DMatrix::from_fn(6, 1, |row, _| if row == 0 { 1.0 } else { 0.0 })];
         let left = [Vector6::new(0.0, 2.0, 4.0, 0.1, 0.2, 0.4)];
-        let noise = PoseNoise::new(&left, &only_first, &only_first);
+        let noise = PoseNoise::new(&left, &only_first, &only_first, []);
         // Two degrees of freedom of three forces, three of three torques.
         let (force, torque) = ((4.0 + 16.0) / 2.0, (0.01 + 0.04 + 0.16) / 3.0);
         for (component, expected) in [force, force, force, torque, torque, torque].into_iter().enumerate() {
@@ -211,7 +221,7 @@ mod tests {
         let (weights, doubts) = noise.weights();
         assert!(weights == Vector6::from_element(1.0) && doubts.is_empty(), "{weights}");
         // The parameter has the noise of a force, and the degrees of freedom of the two that are left.
-        let (deviation, freedom) = noise.of(&DVector::from_element(1, 1.0), &[]);
+        let (deviation, freedom) = noise.of(&DVector::from_element(1, 1.0));
         assert!((deviation - force.sqrt()).abs() < 1e-12, "{deviation}");
         assert!((freedom - 2.0).abs() < 1e-12, "{freedom}");
     }
@@ -221,7 +231,7 @@ mod tests {
     fn components_that_are_told_apart_have_their_own() {
         let nothing = [DMatrix::zeros(6, 1), DMatrix::zeros(6, 1)];
         let left = [Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), Vector6::new(-1.0, 0.0, 3.0, 0.0, 5.0, 2.0)];
-        let noise = PoseNoise::new(&left, &nothing, &nothing);
+        let noise = PoseNoise::new(&left, &nothing, &nothing, []);
         let expected = [1.0, 2.0, 9.0, 8.0, 25.0, 20.0];
         assert!((noise.variances() - Vector6::from(expected)).amax() < 1e-12, "{}", noise.variances());
     }
@@ -249,7 +259,7 @@ mod tests {
     fn a_form_of_what_is_left_has_the_mean_of_the_form_of_the_noise() {
         let counts = Vector6::new(1.0, 0.3, 2.0, 0.7, 1.5, 1.0);
         let (slopes, moves) = fitted(&counts);
-        let noise = PoseNoise::new(&vec![Vector6::from_element(1.0); 12], &slopes, &moves);
+        let noise = PoseNoise::new(&vec![Vector6::from_element(1.0); 12], &slopes, &moves, []);
         let root = Matrix6::from_fn(|a, b| if a == b { 1.0 + a as f64 } else { ((a + 4 * b) as f64).cos() });
         let mut mean = Matrix6::zeros();
         for (pose, source) in (0..12).flat_map(|pose| (0..6).map(move |source| (pose, source))) {
@@ -296,7 +306,7 @@ mod tests {
         let left: Vec<_> = (0..60)
             .map(|i| Vector6::from_fn(|a, _| if a == 1 { 10.0 * error(i, a) } else { error(i, a) }))
             .collect();
-        let (weights, doubts) = PoseNoise::new(&left, &nothing, &nothing).weights();
+        let (weights, doubts) = PoseNoise::new(&left, &nothing, &nothing, []).weights();
         for (a, weight) in weights.iter().enumerate() {
             // The mean of three logarithms is that of the noise of 10^(2/3).
             let expected = if a == 1 { 10_f64.powf(-4.0 / 3.0) } else { 10_f64.powf(2.0 / 3.0) };
