@@ -149,14 +149,15 @@ fn is_on_edge<T: Real>(solid: &Frustum<T>, point: &Vector3<T>) -> bool {
 /// In double precision if the type is narrower and rounding decides between the side, an end and an edge. So it does on
 /// an edge, where the place answers to the torque by more the less that is.
 fn on_frustum_finely<T: Real>(
-    (solid, found): (&Frustum<T>, Option<SoftContact<T>>),
+    solid: &Frustum<T>,
     wrench: &Wrench<T>,
+    on_side: impl FnOnce(&Frustum<T>, &Wrench<T>) -> Option<SoftContact<T>>,
     again: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
 ) -> Result<SoftContact<T>, Search<T>> {
     let lever = (solid.base_radius() + solid.top_radius()) * T::literal(0.5);
     let is_steady = is_steady(wrench, lever);
     let is_steady = |contact: &SoftContact<T>| is_steady(contact) && !is_on_edge(solid, &contact.point);
-    finely(sole(found, wrench), is_steady, wrench, again)
+    finely(sole(on_frustum(solid, wrench, on_side), wrench), is_steady, wrench, again)
 }
 
 fn frustum_in_double<T: Real>(
@@ -201,9 +202,7 @@ fn solid_patch<T: Real>(
 soft_finger!(
     Frustum,
     |shape, wrench, _, visit| told(
-        on_frustum_finely((shape, on_frustum(shape, wrench, on_side)), wrench, |wrench| frustum_in_double(
-            shape, wrench
-        )),
+        on_frustum_finely(shape, wrench, on_side, |wrench| frustum_in_double(shape, wrench)),
         visit
     ),
     sole | shape,
@@ -220,11 +219,7 @@ soft_finger!(
 soft_finger!(
     CappedCylinder,
     |shape, wrench, _, visit| told(
-        on_frustum_finely(
-            (shape.solid(), on_frustum(shape.solid(), wrench, on_straight_side)),
-            wrench,
-            |wrench| capped_in_double(shape, wrench)
-        ),
+        on_frustum_finely(shape.solid(), wrench, on_straight_side, |wrench| capped_in_double(shape, wrench)),
         visit
     ),
     sole | shape,
