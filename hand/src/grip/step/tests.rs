@@ -1,7 +1,7 @@
 //! What a step leaves, and what its corrections are.
 #![cfg(test)]
 
-use super::{Aim, System};
+use super::{Aim, Direction, System};
 use crate::grip::block::{Block, Row};
 use crate::grip::iterate::{Each, Iterate};
 use crate::grip::program::{Ending, Program, Stop};
@@ -128,6 +128,31 @@ fn a_step_is_corrected_until_it_reaches_enough() {
     assert!(near > 20 && again * 3 > near * 2, "{again} of {near}");
 }
 
+/// What τ and κ bear of a step, where nothing else ends it.
+#[test]
+fn a_step_ends_where_tau_or_kappa_does() {
+    let mut rng = Pcg64Mcg::seed_from_u64(45);
+    let program = program(&mut rng);
+    let mut at = Iterate::middle();
+    (at.tau, at.kappa) = (3.0, 0.5);
+    let missing = program.missing(&at);
+    let mut work = Workspace::new(&program.blocks);
+    let mut system = System::new(&program, &at, &missing, &mut work.scaled);
+    for (tau, kappa, end) in [
+        (-2.0, 0.0, 1.5),
+        (-2.0, 1.0, 1.5),
+        (0.0, -0.3, 0.5 / 0.3),
+        (-2.0, -0.4, 1.25),
+        (-1.4, -0.2, 2.0),
+        (-30.0, 0.0, 0.1),
+    ] {
+        // No block has a direction yet.
+        let along = Direction { twist: Vector6::zeros(), tau, kappa, second: 0.0 };
+        let found = system.greatest_step(&along, 2.0);
+        assert!((found - end).abs() < 1e-15, "{tau} {kappa}: {found}");
+    }
+}
+
 /// However often it is corrected: the reach that is told is that of the direction that is.
 #[test]
 fn what_a_correction_reaches_is_told() {
@@ -147,6 +172,10 @@ fn what_a_correction_reaches_is_told() {
             let (along, reach) = system.correct_more((along, first), &aim, 1.5);
             assert_eq!(reach, system.greatest_step(&along, 2.0));
             assert!(reach >= first * (2.0 / 3.0));
+            // Neither τ nor κ is less than nothing there.
+            for (x, d) in [(at.tau, along.tau), (at.kappa, along.kappa)] {
+                assert!(x + d * reach > -1e-12, "{x} {d} {reach}");
+            }
             farther += u32::from(reach > first);
             assert!(program.step(&mut at, &mut missing, &mut work, 0.0));
         }
