@@ -100,7 +100,11 @@ mod tests {
             lower.fill_upper_triangle(0.0, 1);
             cholesky.inverse.iter().enumerate().for_each(|(i, x)| lower[(i, i)] = x.recip());
             let off = lower * lower.transpose() - matrix;
-            assert!(off.amax() < 8.0 * f64::EPSILON * matrix.trace() && off.trace() > 0.0, "{off}");
+            assert!(
+                off.amax() < 8.0 * f64::EPSILON * matrix.trace()
+                    && off.trace() > 12.0 * f64::EPSILON * matrix.trace(),
+                "{off}"
+            );
         }
         for missing in 0..6 {
             let mut matrix = Matrix6::<f64>::identity() * 3.0;

@@ -238,6 +238,19 @@ mod tests {
         assert!(bounded > 500 && free > 200, "{bounded} {free}");
     }
 
+    /// Along itself a vector leaves the cone at its apex, where the equation of the step has both its roots.
+    #[test]
+    fn steps_to_the_apex_end_there() {
+        let mut rng = Pcg64Mcg::seed_from_u64(4);
+        for _ in 0..500 {
+            let y = inside(&mut rng);
+            let end = rng.random_range(0.1..1.9);
+            let step = step_to_boundary(&y, det(&y), &(y / -end), 2.0);
+            // Rounding of a double root may shorten it, by a share of the distance from the border.
+            assert!(step < end * (1.0 + 1e-9) && step > 0.95 * end, "{step} {end}");
+        }
+    }
+
     /// Along the border and almost along it, where the equation of the step is almost linear.
     #[test]
     fn steps_along_the_border_lose_no_digits() {

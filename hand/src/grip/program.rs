@@ -12,6 +12,8 @@ use crate::grip::iterate::{Each, Iterate};
 use crate::grip::kernels::add;
 use crate::grip::workspace::Workspace;
 
+mod tests;
+
 /// Minimise `Σ cost y₀` with `Σ map y = wrench`, `y` in the cones and the half-spaces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Program<T: Real, const N: usize, const ROWS: usize> {

@@ -9,6 +9,8 @@ use crate::grip::program::{Missing, Program};
 use crate::grip::scaled::Scaled;
 use crate::grip::workspace::Workspace;
 
+mod tests;
+
 /// Most corrections of a step after the first.
 const MORE_CORRECTIONS: usize = 3;
 
@@ -220,87 +222,5 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         at.tau += along.tau * step;
         at.kappa += along.kappa * step;
         true
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Aim, System};
-    use crate::grip::block::{Block, Row};
-    use crate::grip::iterate::{Each, Iterate};
-    use crate::grip::program::{Ending, Program, Stop};
-    use crate::grip::workspace::Workspace;
-    use nalgebra::{Matrix6x4, Vector4, Vector6};
-    use rand::{RngExt, SeedableRng};
-    use rand_pcg::Pcg64Mcg;
-
-    /// Four contacts of any map, one of them with a half-space.
-    fn program(rng: &mut Pcg64Mcg) -> Program<f64, 4, 1> {
-        let mut blocks = Each::all(None);
-        for block in &mut blocks.fingers {
-            let map = Matrix6x4::from_fn(|_, _| rng.random_range(-1.0..1.0));
-            *block = Some(Block { map, cost: 1.0, rows: [None] });
-        }
-        if let Some(block) = &mut blocks.fingers[1] {
-            block.rows = [Some(Row { normal: Vector4::x(), bound: 0.7, opposite: false })];
-        }
-        Program { blocks, wrench: Vector6::from_fn(|_, _| rng.random_range(-1.0..1.0)), cost_factor: 1.0 }
-    }
-
-    /// The law of τ and κ, `κ dτ + τ dκ = centre − τκ − dτ dκ`, where the last is that of the direction before.
-    #[test]
-    fn each_correction_is_of_the_direction_before() {
-        let mut rng = Pcg64Mcg::seed_from_u64(41);
-        for _ in 0..50 {
-            let program = program(&mut rng);
-            let mut at = Iterate::middle();
-            (at.tau, at.kappa) = (rng.random_range(0.3..2.0), rng.random_range(0.3..2.0));
-            let missing = program.missing(&at);
-            let mut work = Workspace::new(&program.blocks);
-            let mut system = System::new(&program, &at, &missing, &mut work.scaled);
-            let aim = Aim { centre: 0.1, keep: 0.9 };
-            let mut before = system.predict();
-            let mut along = system.correct(&before, &aim);
-            for _ in 0..3 {
-                let found = at.kappa * along.tau + at.tau * along.kappa;
-                let wanted = aim.centre - at.tau * at.kappa - before.tau * before.kappa;
-                assert!((found - wanted).abs() < 1e-12 * (1.0 + wanted.abs()), "{found} {wanted}");
-                (before.tau, before.kappa) = (along.tau, along.kappa);
-                system.correct_again(&mut along, &aim);
-            }
-        }
-    }
-
-    /// What a step is said to leave of the equations is what is missing then; also after a start from the way.
-    #[test]
-    fn what_a_step_leaves_is_known() {
-        let mut rng = Pcg64Mcg::seed_from_u64(42);
-        let mut solved = 0;
-        for _ in 0..50 {
-            let program = program(&mut rng);
-            let mut at = Iterate::middle();
-            let mut missing = program.missing(&at);
-            let mut work = Workspace::new(&program.blocks);
-            for _ in 0..4 {
-                let before = missing.of_tau;
-                let equilibrium = missing.equilibrium;
-                assert!(program.step(&mut at, &mut missing, &mut work, 0.0));
-                let found = program.missing(&at);
-                assert!((found.equilibrium - missing.equilibrium).amax() < 1e-11);
-                let share = missing.equilibrium.amax() / equilibrium.amax();
-                assert!((found.of_tau - share * before).abs() < 1e-11, "{} {}", found.of_tau, share * before);
-                missing = found;
-            }
-            // The point on the way misses a thousandth.
-            let stop = Stop { tolerance: 1e-8, greatest: 1e8, steps: 30 };
-            let (mut at, mut midway) = (Iterate::middle(), None);
-            if program.iterate(&mut at, &stop, &mut midway).0 == Ending::Solved {
-                solved += 1;
-                let midway = midway.unwrap();
-                let off = program.missing(&midway).off(midway.tau);
-                assert!(off > 0.5e-3 && off < 1.5e-3, "{off}");
-            }
-        }
-        assert!(solved > 10, "{solved}");
     }
 }

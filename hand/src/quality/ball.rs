@@ -118,8 +118,7 @@ impl<T: Real, const N: usize, F: Frame> Grasp<T, N, F> {
         }
         let (found, direction) = best;
         let found = found.max(T::zero());
-        let certified =
-            if found > T::zero() { self.certify(&direction, metric).min(found) } else { T::zero() };
+        let certified = self.certify(&direction, metric).min(found);
         let weakest = -self.wrench_along(&direction, length);
         Some(GraspBall { certified, found, weakest })
     }

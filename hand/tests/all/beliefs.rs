@@ -93,6 +93,60 @@ fn a_slip_that_tells_nothing_counts_by_the_factor() {
     assert_eq!(belief.rely(0.5, &ContactForce::zero(), Slipping, STEP, &settings()), 0.4);
 }
 
+/// A slip that goes on is measured again once its 64 samples are all of it: as often as they are, and not before.
+#[test]
+fn a_slip_that_goes_on_is_measured_anew() {
+    let mut belief = learning();
+    let first = slide(&mut belief, 0.5, 0.6, &settings());
+    let mut before = first;
+    for friction in [0.3, 0.45, 0.2] {
+        for sample in 0..64 {
+            let found = belief.rely(0.5, &at_ratio(friction), Slipping, STEP, &settings());
+            assert_eq!(found, before, "{friction}: {sample}");
+        }
+        let found = belief.rely(0.5, &at_ratio(friction), Slipping, STEP, &settings());
+        assert!((0.8 * friction..friction).contains(&found), "{friction}: {found}");
+        before = found;
+    }
+    // Once it holds, the next slip is one of its own.
+    assert_eq!(slide(&mut belief, 0.5, 0.6, &settings()), first);
+}
+
+/// What is measured, or has held, is relied on as it is: what slips that told nothing had taken off is not taken off it.
+#[test]
+fn what_is_learnt_takes_the_place_of_the_factor() {
+    let slipped = || {
+        let mut belief = learning();
+        assert_eq!(belief.rely(0.5, &ContactForce::zero(), Slipping, STEP, &settings()), 0.4);
+        belief
+    };
+    let mut belief = slipped();
+    let found = slide(&mut belief, 0.5, 0.35, &settings());
+    assert_eq!(found, belief.estimate().unwrap().quantile(0.01));
+    let mut belief = slipped();
+    for _ in 0..32 {
+        belief.rely(0.5, &at_ratio(0.45), Holding, STEP, &settings());
+    }
+    assert!((belief.rely(0.5, &at_ratio(0.05), Holding, STEP, &settings()) - 0.45).abs() < 1e-15);
+}
+
+/// Where break-away scatters so much that no friction can be relied on, a slip counts by the factor.
+#[test]
+fn a_slip_that_leaves_nothing_to_rely_on_counts_by_the_factor() {
+    let mut belief = LearntFriction::new(ForceNoise::isotropic(0.01).unwrap(), 1e3, 0.01).unwrap();
+    assert_eq!(slide(&mut belief, 0.5, 0.4, &settings()), 0.4);
+    assert_eq!(belief.estimate().unwrap().quantile(0.01), 0.0);
+}
+
+/// What slips that told nothing have taught is forgotten with the object, too.
+#[test]
+fn a_factor_is_forgotten_with_the_object() {
+    let mut belief = learning();
+    assert_eq!(belief.rely(0.5, &ContactForce::zero(), Slipping, STEP, &settings()), 0.4);
+    belief.forget();
+    assert_eq!(belief.rely(0.5, &at_ratio(0.05), Holding, STEP, &settings()), 0.5);
+}
+
 #[test]
 fn what_holds_long_enough_is_held() {
     let hold = |belief: &mut LearntFriction<f64>, ratio: f64, count: u32| {

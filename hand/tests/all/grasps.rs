@@ -1,6 +1,7 @@
 //! What a grasp makes of forces, against formulas written otherwise.
 
-use fingertip_hand::{FingerContact, Grasp, GraspContact, Hand, UncertainWrench};
+use fingertip_friction::SlipVerdict;
+use fingertip_hand::{FingerContact, FingerSample, FingerState, Grasp, GraspContact, Hand, UncertainWrench};
 use fingertip_wrench::{ContactForce, Real, RigidTransform, Sensor, Wrench};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 use rand::{RngExt, SeedableRng};
@@ -194,4 +195,31 @@ fn covariance_moves_with_the_frame() {
     let both = UncertainWrench::total(&[Some(other), None, Some(other)]);
     assert!((both.covariance - sum * 2.0).amax() < 1e-13 * sum.amax());
     assert_eq!(felt * 2.0, both.wrench.components());
+}
+
+/// A sensor in the object feels the reaction, in every part of it; told the other way twice it is what it was.
+#[test]
+fn what_is_felt_in_the_object_is_the_reaction() {
+    let mut rng = Pcg64Mcg::seed_from_u64(55);
+    for _ in 0..50 {
+        let normal = vector(&mut rng).normalize();
+        let contact =
+            GraspContact::<f64, TestHand>::soft(vector(&mut rng) * 0.05, normal, 0.6, 3e-3).unwrap();
+        let sideways = normal.cross(&vector(&mut rng));
+        let force = ContactForce::new(rng.random_range(0.5..5.0), sideways, rng.random_range(-1e-2..1e-2));
+        let sample = FingerSample { contact, force, slip: SlipVerdict::Warning };
+        let other = sample.reversed();
+        let sum = (sample.wrench() + other.wrench()).components();
+        assert!(sum.amax() < 1e-15 * (1.0 + force.normal), "{sum}");
+        assert!(other.force.normal == force.normal && other.slip == SlipVerdict::Warning);
+        assert_eq!(FingerState::Touching(sample).reversed(), FingerState::Touching(other));
+        let again = other.reversed();
+        assert!(
+            (again.wrench().components() - sample.wrench().components()).amax()
+                < 1e-15 * (1.0 + force.normal)
+        );
+    }
+    for none in [FingerState::<f64, TestHand>::Free, FingerState::Unexplained] {
+        assert_eq!(none.reversed(), none);
+    }
 }

@@ -1,6 +1,6 @@
 //! Limits of joints, against another's solver and by what a joint feels.
 
-use fingertip_hand::{FingerLimits, Grasp, GraspContact, GripOutcome, LeastGrip, Reach};
+use fingertip_hand::{BadLimit, FingerLimits, Grasp, GraspContact, GripOutcome, LeastGrip, Reach};
 use fingertip_wrench::Wrench;
 use nalgebra::{SMatrix, Vector3, Vector6};
 use rand::{RngExt, SeedableRng};
@@ -151,4 +151,11 @@ fn limits_that_do_not_matter_change_nothing() {
             assert!((grip.cost - 4.0).abs() < 4e-6 && grip.steps <= 25, "{power}: {limits:?}: {grip:?}");
         }
     }
+}
+
+/// A finger without room for any limit says that a joint needs two rows.
+#[test]
+fn no_room_at_all_is_said() {
+    let joint = FingerLimits::<f64, 0>::none().with_joint(&Vector6::x(), 1.0);
+    assert_eq!(joint, Err(BadLimit::NoRoom { room: 0, needed: 2 }));
 }

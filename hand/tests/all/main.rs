@@ -15,6 +15,7 @@ mod objects;
 mod precision;
 mod quality;
 mod reaction;
+mod squeeze;
 mod stored;
 mod warm_starts;
 mod without_safety;

@@ -218,3 +218,16 @@ fn alarms_are_at_the_quantiles() {
     assert!(OtherContact::new(&load(Vector3::x() * 1e9, one), &weight, &down).unwrap().touches(1e-300));
     assert!(OtherContact::new(&load(Vector3::x() * 1e200, one), &weight, &down).is_none());
 }
+
+/// Under a gravity at which a load is a number and its covariance is beyond them all, no load is told.
+#[test]
+fn a_load_without_a_covariance_is_none() {
+    let covariance = Matrix6::from_diagonal(&Vector6::new(1e-4, 1e-4, 1e-4, 1e-8, 1e-8, 1e-8));
+    let mut weight = ObjectWeight::<f64>::new();
+    for gravity in [-Vector3::z() * 9.81, -Vector3::x() * 9.81] {
+        let wrench = Wrench::<f64, TestHand>::from_force_at(&(Vector3::z() * 0.02), gravity * 0.2);
+        assert!(weight.observe(&UncertainWrench { wrench, covariance }, &gravity));
+    }
+    assert!(weight.load::<TestHand>(&(Vector3::y() * 1e100)).is_some());
+    assert!(weight.load::<TestHand>(&(Vector3::y() * 1e200)).is_none());
+}

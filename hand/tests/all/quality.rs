@@ -159,6 +159,11 @@ fn margins_are_those_of_the_contacts() {
     assert_eq!(nothing.ball(Metric::Total { length: 0.03 }).unwrap().found, 0.0);
     assert!(nothing.ball(Metric::Each { length: f64::NAN }).is_none());
     assert!(nothing.ball(Metric::Each { length: 0.0 }).is_none());
+    // No fingers bear no load, and nothing beside it without end.
+    let (none, push) =
+        ([FingerLimits::<f64, 1>::none(); 3], Wrench::from_force_at(&Vector3::x(), Vector3::z()));
+    assert_eq!(nothing.reach(&none, &Wrench::zero(), &Wrench::zero()), Reach::Unlimited);
+    assert_eq!(nothing.reach(&none, &push, &Wrench::zero()), Reach::NotHeld);
 }
 
 /// The reach is what another's solver finds for it.
@@ -227,6 +232,11 @@ fn reach_without_a_disturbance_and_in_any_units() {
             assert_eq!(grasp.reach(&limits, &down(12.0), &down(1.0)), Reach::NotHeld);
             let Reach::Times(back) = grasp.reach(&limits, &down(12.0), &down(-1.0)) else { panic!() };
             assert!((back - 22.0).abs() < 1e-5, "{size} {newtons}: {back}");
+            // From nothing, five times 2.
+            let Reach::Times(all) = grasp.reach(&limits, &Wrench::zero(), &down(2.0)) else {
+                panic!("{size} {newtons}")
+            };
+            assert!((all - 5.0).abs() < 1e-6, "{size} {newtons}: {all}");
         }
     }
 }

@@ -227,6 +227,22 @@ fn each_grip_starts_from_the_last_of_its_kind() {
     assert_eq!(after(&[4.0, 5.2]), after(&[5.2]));
 }
 
+/// What was pressed before is more than the fingers may give now, as of joints that have turned: it is left at once, and not
+/// by the rate at which a grip falls.
+#[test]
+fn limits_that_shrink_are_kept_at_once() {
+    let mut hand = HandController::new(HandSettings::default(), [limited(12.0); 2]).unwrap();
+    for _ in 0..100 {
+        hand.command(&pinch(0.5), &down(8.0), STEP);
+    }
+    assert!(hand.present().iter().all(|normal| (normal - 1.3 * 8.0).abs() < 1e-5));
+    for greatest in [9.0, 7.0] {
+        hand.set_limits([limited(greatest); 2]);
+        let found = hand.command(&pinch(0.5), &down(5.0), STEP);
+        assert_eq!((found.state, found.normal), (HandState::Holding, [greatest; 2]));
+    }
+}
+
 /// A joint that gives no more than the grip without safety needs is not asked for more.
 #[test]
 fn joints_give_no_more_than_they_can() {
