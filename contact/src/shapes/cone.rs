@@ -3,7 +3,7 @@
 use fingertip_surfaces::numeric::mixed_precision::is_refined_in_double;
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::numeric::vectors::{length, unit_or};
+use fingertip_surfaces::numeric::vectors::{largest, length, unit_or};
 use fingertip_surfaces::{Cone, Extent, ForceLine, LocalSurface, SmoothSurface, rare_crossings};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -188,21 +188,47 @@ fn steeply_on_cone<T: Real>(cone: &Cone<T>, push: &ForceLine<T>) -> Option<SoftC
 }
 
 /// The contact on the side, or at the tip, on which any normal will do that is steeper than the side's.
+///
+/// # Errors
+/// As [`on_cone`]; [`Search::Incomplete`] too where rounding decides between the side and the tip, or where on the side
+/// the contact is.
 fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
-    let mut found = on_cone(cone, wrench);
-    if found.is_err() {
-        let (apex, tip) = (cone.apex(), -cone.axis());
-        let (least, _) = cone.half_angle_sin_cos();
-        on_rim(
-            T::zero(),
-            &tip,
-            &wrench.force(),
-            &wrench.torque_about(&apex),
-            |normal, _| normal.dot(&tip) >= least,
-            |contact| found = Ok(SoftContact { point: apex, ..contact }),
-        );
+    let found = on_cone(cone, wrench);
+    if let Ok(contact) = &found {
+        return if is_told(cone, wrench, contact) { found } else { Err(Search::Incomplete) };
     }
-    found
+    let (apex, tip, force) = (cone.apex(), -cone.axis(), wrench.force());
+    let (sine, _) = cone.half_angle_sin_cos();
+    // What the torque about the tip is made of, each rounded.
+    let torque = largest(&wrench.torque()) + largest(&apex) * largest(&force);
+    let mut at_tip = None;
+    on_rim(
+        T::zero(),
+        &tip,
+        &force,
+        &wrench.torque_about(&apex),
+        |_, _| true,
+        |contact| at_tip = Some(SoftContact { point: apex, ..contact }),
+    );
+    let Some(contact) = at_tip else { return found };
+    let hair = T::EPSILON * T::literal(16.0) * (torque / contact.spin_torque.abs());
+    let above = contact.normal.dot(&tip) - sine;
+    if above > hair {
+        Ok(contact)
+    } else if above >= -hair {
+        Err(Search::Incomplete)
+    } else {
+        found
+    }
+}
+
+/// Whether the numbers tell where along the side a contact is.
+///
+/// Without curvature along it, a spin torque `τ` tells the place at a distance `ℓ` from the tip by the turn of the
+/// normal that the force makes, `(ℓ f·n/τ)²/2`: not if that is no more than rounding.
+fn is_told<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>, contact: &SoftContact<T>) -> bool {
+    let lever = length(&(contact.point - cone.apex())) * wrench.force().dot(&contact.normal).abs();
+    contact.spin_torque.abs() * (T::literal(8.0) * T::EPSILON.root()) <= lever
 }
 
 /// The same, in double precision if the type is narrower and the force meets the side at a flat angle or the spin

@@ -45,6 +45,14 @@ impl Load {
         })
     }
 
+    /// The steepest curvature at a place.
+    pub(crate) fn steepest(&self, surface: &impl Exact, point: &Big3) -> f64 {
+        let (_, n) = surface.height_and_normal(point);
+        let (e1, e2) = across(&n);
+        let [bend1, bend2] = self.bends(surface, point, [&e1, &e2]);
+        length(&bend1).to_f64().max(length(&bend2).to_f64())
+    }
+
     /// How far two contacts are from merging at a place, `|τ²κ + (f·n)²|/|f|²`, and `f·n/|f|`.
     pub(crate) fn apart(&self, surface: &impl Exact, point: &Big3, spin: &Big) -> (f64, f64) {
         let (_, n) = surface.height_and_normal(point);

@@ -201,15 +201,17 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
 
     /// Whether a contact solves the equations but for the rounding of its own numbers.
     fn solves(&self, load: &Load, found: &Contact<T>) -> bool {
-        let point = wide(&found.point);
-        let (height, normal) = self.surface.height_and_normal(&point);
+        let (point, normal) = (wide(&found.point), wide(&found.normal));
+        let (height, exactly) = self.surface.height_and_normal(&point);
         let magnitude = self.wrench.force().map(Real::to_f64).norm();
         let unit = number(2.0_f64.powi(-(magnitude.log2() as i32)));
         let spin = &number(found.spin_torque) * &unit;
         let rest = minus(&minus(&load.torque, &cross(&point, &load.force)), &times(&normal, &spin));
         let far = length(&point).to_f64() + self.size;
         let lever = length(&load.torque).to_f64() + length(&load.force).to_f64() * far;
-        length(&rest).to_f64() <= goal::<T>() * lever && height.abs().to_f64() <= goal::<T>() * far
+        let turned = distance(&found.normal, &exactly) / (1.0 + load.steepest(&self.surface, &point) * far);
+        let on_surface = height.abs().to_f64() <= goal::<T>() * far && turned <= goal::<T>();
+        length(&rest).to_f64() <= goal::<T>() * lever && on_surface
     }
 
     /// Of point, normal and spin torque, in units of the goal.
