@@ -357,7 +357,7 @@ impl<T: Real> PointContact<T> {
         let hair = T::EPSILON * T::literal(64.0) * largest(&point);
         if active
             && gap <= hair
-            && let Some((point, normal)) = in_double(wrench, surface, &point)
+            && let Some((point, normal)) = in_double(wrench, surface, &point, true)
             && -line.direction.dot(&normal) >= self.least_incidence
         {
             return Ok(Place::at(point, normal));

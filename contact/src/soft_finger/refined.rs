@@ -94,9 +94,9 @@ fn refined_on<T: Real>(
     // Of a type that is narrow enough for it double precision has digits to spare.
     let spare = f64::EPSILON * (m.amax() + reach * stiffness) * answer <= 0.02 * epsilon * reach;
     let found = if spare {
-        solve::<f64, T>(load, patch_at, start)
+        solve::<f64, T>(load, patch_at, start, Start::Rounded)
     } else {
-        solve::<Twofold<f64>, T>(load, patch_at, start)
+        solve::<Twofold<f64>, T>(load, patch_at, start, Start::Rounded)
     };
     match found {
         // Nor does rounding lead over an edge, as from the side of a closed cylinder to its end.
@@ -134,7 +134,7 @@ fn settled_on<T: Real>(
 ) -> Option<SoftContact<T>> {
     let (scale, load) = scaled(wrench);
     let start = (wide(&contact.point), contact.spin_torque.to_f64() * scale);
-    let end = solve::<Twofold<f64>, T>(load, patch_at, start)?;
+    let end = solve::<Twofold<f64>, T>(load, patch_at, start, Start::Near)?;
     (load[0].dot(&end.normal) < 0.0).then(|| end.renews(contact, scale))
 }
 
@@ -173,7 +173,19 @@ pub(crate) fn renewed<T: Real>(before: T, now: f64) -> T {
     T::literal(now) + (before - T::literal(before.to_f64()))
 }
 
+/// What the steps begin with.
+#[derive(Clone, Copy, PartialEq)]
+enum Start {
+    /// The solution but for rounding: steps within a part of the surface grow shorter at once.
+    Rounded,
+    /// Only near.
+    Near,
+}
+
 /// From a point and a spin torque, those of the solution.
+///
+/// From a solution that is rounded to the wrong side of a seam, steps of which the second is no shorter lead away: it is
+/// left as it is.
 ///
 /// Where the curvature jumps, whole steps may lead to and fro. So one that leaves a part of the surface ends
 /// on the seam, and the next goes on from there with the curvature of the neighbour: since the determinant
@@ -183,6 +195,7 @@ fn solve<W: Wide, T: Real>(
     [f, m]: [Vector3<f64>; 2],
     patch_at: PartAt<'_, T>,
     (start, torque): (Vector3<f64>, f64),
+    kind: Start,
 ) -> Option<End> {
     let (mut point, mut spin): (Three<W>, W) = (exactly(&start), W::exactly(torque));
     let patch_at = |point: Vector3<f64>| patch_at(&point.map(T::literal));
@@ -219,6 +232,10 @@ fn solve<W: Wide, T: Real>(
             let normal = patch.seen(point).normal;
             let (point, normal, spin) = (rounded(point), rounded(normal), spin.rounded());
             return Some(End { point, normal, spin, flat: is_flat(&patch) });
+        }
+        let strays = size + size > before && taken < 4 && !matches!(leads, Way::Leaves(..));
+        if strays && kind == Start::Rounded {
+            return None;
         }
         before = size;
         patch = match leads {
