@@ -1,5 +1,7 @@
 //! A soft contact to the last digit.
 
+use core::mem::discriminant;
+
 use fingertip_surfaces::LocalSurface;
 use fingertip_surfaces::numeric::mixed_precision::is_refined_in_double;
 use fingertip_surfaces::numeric::twofold::{Twofold, Wide};
@@ -176,7 +178,7 @@ pub(crate) fn renewed<T: Real>(before: T, now: f64) -> T {
 /// What the steps begin with.
 #[derive(Clone, Copy, PartialEq)]
 enum Start {
-    /// The solution but for rounding: steps within a part of the surface grow shorter at once.
+    /// The solution but for rounding.
     Rounded,
     /// Only near.
     Near,
@@ -184,8 +186,8 @@ enum Start {
 
 /// From a point and a spin torque, those of the solution.
 ///
-/// From a solution that is rounded to the wrong side of a seam, steps of which the second is no shorter lead away: it is
-/// left as it is.
+/// From a solution that is rounded to the wrong side of an open seam the steps lead away: one on the neighbour is no
+/// shorter than the one before, and the solution is left as it is.
 ///
 /// Where the curvature jumps, whole steps may lead to and fro. So one that leaves a part of the surface ends
 /// on the seam, and the next goes on from there with the curvature of the neighbour: since the determinant
@@ -200,7 +202,7 @@ fn solve<W: Wide, T: Real>(
     let (mut point, mut spin): (Three<W>, W) = (exactly(&start), W::exactly(torque));
     let patch_at = |point: Vector3<f64>| patch_at(&point.map(T::literal));
     let mut patch = patch_at(start)?;
-    let mut before = f64::MAX;
+    let (mut before, mut crossed) = (f64::MAX, false);
     for taken in 0..STEPS {
         let seen = patch.seen(point);
         let arm = cross(point, exactly(&f));
@@ -233,14 +235,18 @@ fn solve<W: Wide, T: Real>(
             let (point, normal, spin) = (rounded(point), rounded(normal), spin.rounded());
             return Some(End { point, normal, spin, flat: is_flat(&patch) });
         }
-        let strays = size + size > before && taken < 4 && !matches!(leads, Way::Leaves(..));
-        if strays && kind == Start::Rounded {
+        // Nor is a step on another part that is no shorter than the one that led there.
+        if crossed && kind == Start::Rounded && size + size > before {
             return None;
         }
         before = size;
         patch = match leads {
             Way::Stays => patch,
-            Way::Open => patch_at(rounded(point))?,
+            Way::Open => {
+                let here = patch_at(rounded(point))?;
+                crossed = discriminant(&here.surface) != discriminant(&patch.surface);
+                here
+            }
             Way::Leaves(_, Behind::Part(neighbour)) => Patch { surface: neighbour, ..patch },
             Way::Leaves(_, Behind::Height(z)) => {
                 let beyond = Vector3::new(0.0, 0.0, z);
