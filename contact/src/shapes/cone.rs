@@ -3,7 +3,7 @@
 use fingertip_surfaces::numeric::mixed_precision::is_refined_in_double;
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::numeric::vectors::wide;
-use fingertip_surfaces::numeric::vectors::{largest, length, unit_or};
+use fingertip_surfaces::numeric::vectors::{length, unit_or};
 use fingertip_surfaces::{Cone, Extent, ForceLine, LocalSurface, SmoothSurface, rare_crossings};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -13,7 +13,7 @@ use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
-use crate::soft_finger::rim::on_rim;
+use crate::soft_finger::rim::{on_rim, turned_at_tip};
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on the unbounded cone: the closed form of
@@ -197,21 +197,19 @@ fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
     if let Ok(contact) = &found {
         return if is_told(cone, wrench, contact) { found } else { Err(Search::Incomplete) };
     }
-    let (apex, tip, force) = (cone.apex(), -cone.axis(), wrench.force());
+    let (apex, tip) = (cone.apex(), -cone.axis());
     let (sine, _) = cone.half_angle_sin_cos();
-    // What the torque about the tip is made of, each rounded.
-    let torque = largest(&wrench.torque()) + largest(&apex) * largest(&force);
     let mut at_tip = None;
     on_rim(
         T::zero(),
         &tip,
-        &force,
+        &wrench.force(),
         &wrench.torque_about(&apex),
         |_, _| true,
         |contact| at_tip = Some(SoftContact { point: apex, ..contact }),
     );
     let Some(contact) = at_tip else { return found };
-    let hair = T::EPSILON * T::literal(16.0) * (torque / contact.spin_torque.abs());
+    let hair = turned_at_tip(wrench, &apex);
     let above = contact.normal.dot(&tip) - sine;
     if above > hair {
         Ok(contact)
