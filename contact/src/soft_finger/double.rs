@@ -22,9 +22,12 @@ pub(crate) fn finely<T: Real>(
     match again(&widened(wrench)) {
         Some(Ok(contact)) => Ok(narrow(&contact)),
         Some(Err(pair @ Search::Grazing(_))) => Err(in_type(pair)),
-        // There is none; what the rounding of the wrench could make of it is for the narrower type to say.
-        Some(Err(Search::Complete)) => found.and(Err(Search::Incomplete)),
-        Some(Err(Search::Incomplete | Search::Uncertified)) | None => found,
+        // There is none, or more digits than those of the type do not tell; what the rounding of the wrench could make of
+        // it is for the narrower type to say.
+        Some(Err(Search::Complete | Search::Incomplete | Search::Uncertified)) => {
+            found.and(Err(Search::Incomplete))
+        }
+        None => found,
     }
 }
 

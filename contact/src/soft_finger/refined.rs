@@ -1,5 +1,7 @@
 //! A soft contact to the last digit.
 
+use core::mem::discriminant;
+
 use fingertip_surfaces::LocalSurface;
 use fingertip_surfaces::numeric::mixed_precision::is_refined_in_double;
 use fingertip_surfaces::numeric::twofold::{Twofold, Wide};
@@ -94,9 +96,9 @@ fn refined_on<T: Real>(
     // Of a type that is narrow enough for it double precision has digits to spare.
     let spare = f64::EPSILON * (m.amax() + reach * stiffness) * answer <= 0.02 * epsilon * reach;
     let found = if spare {
-        solve::<f64, T>(load, patch_at, start)
+        solve::<f64, T>(load, patch_at, start, Start::Rounded)
     } else {
-        solve::<Twofold<f64>, T>(load, patch_at, start)
+        solve::<Twofold<f64>, T>(load, patch_at, start, Start::Rounded)
     };
     match found {
         // Nor does rounding lead over an edge, as from the side of a closed cylinder to its end.
@@ -134,7 +136,7 @@ fn settled_on<T: Real>(
 ) -> Option<SoftContact<T>> {
     let (scale, load) = scaled(wrench);
     let start = (wide(&contact.point), contact.spin_torque.to_f64() * scale);
-    let end = solve::<Twofold<f64>, T>(load, patch_at, start)?;
+    let end = solve::<Twofold<f64>, T>(load, patch_at, start, Start::Near)?;
     (load[0].dot(&end.normal) < 0.0).then(|| end.renews(contact, scale))
 }
 
@@ -173,7 +175,19 @@ pub(crate) fn renewed<T: Real>(before: T, now: f64) -> T {
     T::literal(now) + (before - T::literal(before.to_f64()))
 }
 
+/// What the steps begin with.
+#[derive(Clone, Copy, PartialEq)]
+enum Start {
+    /// The solution but for rounding.
+    Rounded,
+    /// Only near.
+    Near,
+}
+
 /// From a point and a spin torque, those of the solution.
+///
+/// From a solution that is rounded to the wrong side of an open seam the steps lead away: one on the neighbour is no
+/// shorter than the one before, and the solution is left as it is.
 ///
 /// Where the curvature jumps, whole steps may lead to and fro. So one that leaves a part of the surface ends
 /// on the seam, and the next goes on from there with the curvature of the neighbour: since the determinant
@@ -183,11 +197,12 @@ fn solve<W: Wide, T: Real>(
     [f, m]: [Vector3<f64>; 2],
     patch_at: PartAt<'_, T>,
     (start, torque): (Vector3<f64>, f64),
+    kind: Start,
 ) -> Option<End> {
     let (mut point, mut spin): (Three<W>, W) = (exactly(&start), W::exactly(torque));
     let patch_at = |point: Vector3<f64>| patch_at(&point.map(T::literal));
     let mut patch = patch_at(start)?;
-    let mut before = f64::MAX;
+    let (mut before, mut crossed) = (f64::MAX, false);
     for taken in 0..STEPS {
         let seen = patch.seen(point);
         let arm = cross(point, exactly(&f));
@@ -220,10 +235,18 @@ fn solve<W: Wide, T: Real>(
             let (point, normal, spin) = (rounded(point), rounded(normal), spin.rounded());
             return Some(End { point, normal, spin, flat: is_flat(&patch) });
         }
+        // Nor is a step on another part that is no shorter than the one that led there.
+        if crossed && kind == Start::Rounded && size + size > before {
+            return None;
+        }
         before = size;
         patch = match leads {
             Way::Stays => patch,
-            Way::Open => patch_at(rounded(point))?,
+            Way::Open => {
+                let here = patch_at(rounded(point))?;
+                crossed = discriminant(&here.surface) != discriminant(&patch.surface);
+                here
+            }
             Way::Leaves(_, Behind::Part(neighbour)) => Patch { surface: neighbour, ..patch },
             Way::Leaves(_, Behind::Height(z)) => {
                 let beyond = Vector3::new(0.0, 0.0, z);

@@ -16,6 +16,7 @@ mod draw;
 #[path = "../soft/exact.rs"]
 #[allow(dead_code, reason = "another test uses the rest")]
 mod exact;
+mod found;
 mod more;
 #[path = "../soft/solids.rs"]
 mod solids;

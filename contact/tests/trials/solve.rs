@@ -34,6 +34,36 @@ impl Load {
         self.on_smooth(surface, big3(near)).filter(|truth| surface.holds(&truth.point))
     }
 
+    /// How the normal turns along two ways in the tangent plane: central differences, exact to 1e-18.
+    fn bends(&self, surface: &impl Exact, point: &Big3, ways: [&Big3; 2]) -> [Big3; 2] {
+        let stride = Big::new(1e-9 * self.size);
+        ways.map(|way| {
+            let step = times(way, &stride);
+            let there = surface.height_and_normal(&plus(point, &step)).1;
+            let back = surface.height_and_normal(&minus(point, &step)).1;
+            times(&minus(&there, &back), &(&Big::new(0.5) / &stride))
+        })
+    }
+
+    /// The steepest curvature at a place.
+    pub(crate) fn steepest(&self, surface: &impl Exact, point: &Big3) -> f64 {
+        let (_, n) = surface.height_and_normal(point);
+        let (e1, e2) = across(&n);
+        let [bend1, bend2] = self.bends(surface, point, [&e1, &e2]);
+        length(&bend1).to_f64().max(length(&bend2).to_f64())
+    }
+
+    /// How far two contacts are from merging at a place, `|τ²κ + (f·n)²|/|f|²`, and `f·n/|f|`.
+    pub(crate) fn apart(&self, surface: &impl Exact, point: &Big3, spin: &Big) -> (f64, f64) {
+        let (_, n) = surface.height_and_normal(point);
+        let (e1, e2) = across(&n);
+        let [bend1, bend2] = self.bends(surface, point, [&e1, &e2]);
+        let curvature = dot(&e1, &bend1) * dot(&e2, &bend2) - dot(&e1, &bend2) * dot(&e2, &bend1);
+        let (pressing, strength) = (dot(&self.force, &n), self.magnitude());
+        let index = curvature * *spin * *spin + pressing * pressing;
+        ((index / (strength * strength)).to_f64().abs(), (pressing / strength).to_f64())
+    }
+
     /// On the surface without edges.
     pub(crate) fn on_smooth(&self, surface: &impl Exact, start: Big3) -> Option<Truth> {
         let (f, m) = (&self.force, &self.torque);
@@ -45,15 +75,7 @@ impl Load {
             let (height, n) = surface.height_and_normal(&point);
             let rest = minus(&minus(m, &cross(&point, f)), &times(&n, &spin));
             let (e1, e2) = across(&n);
-            // How the normal turns: central differences, exact to 1e-18.
-            let stride = Big::new(1e-9 * self.size);
-            let turn = |e: &Big3| {
-                let step = times(e, &stride);
-                let there = surface.height_and_normal(&plus(&point, &step)).1;
-                let back = surface.height_and_normal(&minus(&point, &step)).1;
-                times(&minus(&there, &back), &(&Big::new(0.5) / &stride))
-            };
-            let (bend1, bend2) = (turn(&e1), turn(&e2));
+            let [bend1, bend2] = self.bends(surface, &point, [&e1, &e2]);
             let steepest = length(&bend1).to_f64().max(length(&bend2).to_f64());
             // τ W a + a × f = rest − (−h n) × f in the plane across n, a being the step along it.
             let rest_there = plus(&rest, &times(&cross(&n, f), &height));

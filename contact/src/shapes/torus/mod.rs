@@ -382,4 +382,21 @@ mod tests {
     fn single_precision_finds_what_the_spheres_tell_in_double_of_many() {
         same_in_single_precision(300_000);
     }
+
+    /// Next to where the force grazes a contact that presses and one that pulls are near to each other.
+    #[test]
+    fn what_pulls_next_to_it_is_not_taken_for_the_contact() {
+        let torus = Torus::new(81.160_326_104_076_42_f64, 5.800_686_279_474_982).unwrap();
+        let force =
+            Vector3::new(3.645_249_858_271_588_7e-10, -1.294_527_456_556_825e-9, 9.818_551_003_683_044e-11);
+        let torque =
+            Vector3::new(-1.161_562_136_164_198e-8, -8.975_579_816_483_073e-9, -7.521_426_332_502_329e-8);
+        let wrench = Wrench::on_fingertip(force, torque);
+        // Where it was put, with a spin torque of 2.6e-14 N·m: to be found but for rounding.
+        let put = Vector3::new(69.947_234_082_891_94, -42.066_738_435_809_57, -5.782_248_111_588_434);
+        let found = all(|visit| assert_eq!(on_torus(&torus, &wrench, visit), Search::Complete));
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found.iter().all(|contact| contact.normal.dot(&force) < 0.0), "{found:?}");
+        assert!(found.iter().any(|contact| (contact.point - put).norm() < 1e-11), "{found:?}");
+    }
 }

@@ -64,6 +64,12 @@ pub(super) struct Touch<T: Real> {
     pressing: T,
 }
 
+/// Whether a force presses, and what tells it.
+struct Side<T> {
+    presses: bool,
+    magnitude: T,
+}
+
 impl<T: Real> Touch<T> {
     pub(super) fn nowhere() -> Self {
         let zero = T::zero();
@@ -233,6 +239,15 @@ impl<T: Real> Ring<T> {
         })
     }
 
+    /// On which side the force is, for `f·m > 0` or not: `τ f·n = f·m`, of which the larger factor tells the sign.
+    #[inline(always)]
+    fn side(&self, touch: &Touch<T>, pulls: bool) -> Side<T> {
+        let (spin, along) = (touch.spin, touch.pressing * self.tube);
+        let by_spin = spin.abs() > along.abs();
+        let presses = if by_spin { (spin > T::zero()) != pulls } else { along > T::zero() };
+        Side { presses, magnitude: larger(spin.abs(), along.abs()) }
+    }
+
     /// Of the zeros those that press.
     #[inline(always)]
     fn pressing(&self, cells: &[Cell<T>], found: &mut [Touch<T>; MOST]) -> Option<usize> {
@@ -242,17 +257,17 @@ impl<T: Real> Ring<T> {
         let (mut count, mut certain) = (0, true);
         for cell in cells {
             let touch = self.touch(cell.around());
-            let (spin, along) = (touch.spin, touch.pressing * self.tube);
-            // τ f·n = f·m: the larger of the two tells the sign.
-            certain &= larger(spin.abs(), along.abs()) >= least;
-            let by_spin = spin.abs() > along.abs();
-            let presses = if by_spin { (spin > T::zero()) != pulls } else { along > T::zero() };
+            let side = self.side(&touch, pulls);
+            certain &= side.magnitude >= least;
+            let presses = side.presses;
             *found.get_mut(count)? = touch;
             count += usize::from(presses);
         }
         let mut sum = 0;
         for touch in found.get_mut(..count)? {
             let (polished, index) = self.polished(touch)?;
+            // Next to a grazing force the steps may lead to the neighbour, which pulls.
+            certain &= self.side(&polished, pulls).presses;
             *touch = polished;
             sum += if index > T::zero() { 1 } else { -1 };
         }

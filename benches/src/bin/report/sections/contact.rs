@@ -1,9 +1,11 @@
 //! Wrench to contact: error against run time per shape, and what spin and noise do to each model.
 
+mod many;
 mod noise;
 mod peers;
 mod study;
 
+use many::{batches, on_meshes};
 use noise::over_noise;
 use peers::beside_parry;
 use study::{Figure, SCALE, Study};
@@ -83,12 +85,25 @@ fn in_short(figures: &[Figure]) -> Table {
         "f64 ns",
         "error f32",
         "error f64",
+        "in batches f32 ns",
+        "f64 ns",
         "soft finger f64 ns",
         "error f64",
         "error of the wrench axis with spin",
         "of the soft finger with noise of 1 %",
     ]);
-    for shape in ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"] {
+    for shape in [
+        "sphere",
+        "ellipsoid",
+        "cylinder",
+        "capsule",
+        "cone",
+        "torus",
+        "superquadric",
+        "mesh of 320",
+        "mesh of 5000",
+        "mesh of 82000",
+    ] {
         let find = |method: &str, scalar: &str, inputs: &str| {
             figures.iter().find(|f| {
                 f.shape == shape && f.method.starts_with(method) && f.scalar == scalar && f.inputs == inputs
@@ -106,6 +121,8 @@ fn in_short(figures: &[Figure]) -> Table {
             ns(double),
             worst(single),
             worst(double),
+            ns(find("point contact, batch", "f32", "force")),
+            ns(find("point contact, batch", "f64", "force")),
             ns(soft),
             worst(soft),
             middle(find("point", "f64", "spin")),
@@ -144,14 +161,19 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
          0.03 of force times size. Without noise, errors are against the exact contact of the wrench as the \
          scalar type has it, in 220 bits; with noise of 1 % (of a newton, and of a newton times the size), \
          against the true contact. A point contact with spin is the wrench-axis method: its error is that of \
-         the assumption, and more digits do not help.",
+         the assumption, and more digits do not help. Meshes are balls of so many triangles, whose exact \
+         contact is that on the plane of the facet; batches are of a thousand wrenches as columns.",
     );
     let mut figures = Vec::new();
     let mut study = Study { effort, scalar: "f32", figures: &mut figures };
     each::<f32>(SCALE, &mut study);
+    batches::<f32>(&mut study)?;
+    on_meshes::<f32>(&mut study)?;
     beside_parry(&mut study)?;
     study.scalar = "f64";
     each::<f64>(SCALE, &mut study);
+    batches::<f64>(&mut study)?;
+    on_meshes::<f64>(&mut study)?;
     for shape in ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"] {
         let these: Vec<&Figure> = figures
             .iter()
@@ -162,6 +184,11 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
         let title = format!("Contact, {shape}: error over run time, without noise");
         page.diagram(&format!("contact_{shape}"), &diagram(title, &these))?;
     }
+    let these: Vec<&Figure> =
+        figures.iter().filter(|f| f.shape.starts_with("mesh") && f.inputs == "spin").collect();
+    let named: Vec<Figure> = these.into_iter().map(Figure::with_shape).collect();
+    let title = "Soft finger on meshes of a ball: error over run time, without noise".to_owned();
+    page.diagram("contact_meshes", &diagram(title, &named.iter().collect::<Vec<_>>()))?;
     page.diagram("contact_parry", &beside_parry_diagram(&figures))?;
     page.subheading("Where numerical error stops mattering");
     page.say(

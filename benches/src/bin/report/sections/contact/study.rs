@@ -51,6 +51,7 @@ impl Touch {
     }
 }
 
+#[derive(Clone)]
 pub(super) struct Figure {
     pub(super) shape: &'static str,
     pub(super) method: String,
@@ -61,6 +62,13 @@ pub(super) struct Figure {
     pub(super) lost: usize,
     pub(super) count: usize,
     pub(super) timed: Option<Timed>,
+}
+
+impl Figure {
+    /// For a diagram of several shapes.
+    pub(super) fn with_shape(&self) -> Self {
+        Self { method: format!("{}: {}", self.shape, self.method), ..self.clone() }
+    }
 }
 
 pub(super) struct Study<'a> {

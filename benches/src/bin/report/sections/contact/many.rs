@@ -1,0 +1,125 @@
+//! Soft fingers on meshes of more and more triangles, and point contacts of many wrenches at once.
+
+use core::hint::black_box;
+
+use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
+use fingertip_contact::{ContactModel, Resolution, SoftFinger};
+use fingertip_surfaces::testing::ball_of_triangles;
+use fingertip_surfaces::{Capsule, Cylinder, Ellipsoid, Mesh, Sphere};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::study::{Errors, SCALE, SPIN, Study, Touch};
+use crate::Failure;
+use crate::reference::{distance, point_contact};
+use crate::stability::big::{Big3, big3, cross, dot};
+use crate::stability::contacts::pressing;
+use crate::stability::levels::Level;
+use crate::timing::time;
+
+/// A name, and the circles of latitude and of longitude of a ball of so many triangles.
+const MESHES: [(&str, u32, u32); 3] =
+    [("mesh of 320", 9, 20), ("mesh of 5000", 50, 51), ("mesh of 82000", 203, 203)];
+
+/// The contact on the plane of a facet, exactly: `c = a + N × m_a/(f·N)` with the torque about the corner `a`.
+fn on_facet<T: Real>(corners: [Vector3<T>; 3], wrench: &Wrench<T>) -> Big3 {
+    let exactly = |v: Vector3<T>| big3(v.map(Real::to_f64).into());
+    let [a, b, c] = corners.map(exactly);
+    let (force, torque) = (exactly(wrench.force()), exactly(wrench.torque()));
+    let edge = |end: &Big3| [0, 1, 2].map(|k| &end[k] - &a[k]);
+    let normal = cross(&edge(&b), &edge(&c));
+    let (moved, slope) = (cross(&a, &force), dot(&force, &normal));
+    let across = cross(&normal, &[0, 1, 2].map(|k| &torque[k] - &moved[k]));
+    [0, 1, 2].map(|k| &a[k] + &(&across[k] / &slope))
+}
+
+/// Touches with spin in the facets of a ball, which one takes its size of.
+pub(super) fn on_meshes<T: Real>(study: &mut Study<'_>) -> Result<(), Failure> {
+    let model = SoftFinger::new(T::zero())?;
+    let size = 2.0 * SCALE;
+    for (name, rings, sectors) in MESHES.into_iter().take(study.effort.choose(2, 3)) {
+        let (ball, triangles) = ball_of_triangles::<T>(rings, sectors, None);
+        let vertices: Vec<Vector3<T>> = ball.iter().map(|vertex| vertex * T::literal(SCALE)).collect();
+        let mesh = Mesh::new(&vertices, &triangles)?;
+        let mut random = Pcg64Mcg::seed_from_u64(14);
+        let touches: Vec<_> = (0..study.effort.choose(16, 256))
+            .map(|_| {
+                let corners =
+                    triangles[random.random_range(0..triangles.len())].map(|k| vertices[k as usize]);
+                let [a, b, c] = corners.map(|corner| corner.map(Real::to_f64));
+                let [u, v] = [0; 2].map(|_| random.random_range(0.1..0.4));
+                let (point, normal) = (a + (b - a) * u + (c - a) * v, (b - a).cross(&(c - a)).normalize());
+                let force = pressing(&normal, random.random_range(0.5..1.0), &mut random) * 2.0;
+                let spin = SPIN * 2.0 * size * random.random_range(-1.0..1.0);
+                (corners, Touch { point, force, normal, spin }.wrench::<T>(true, 0.0, size, &mut random))
+            })
+            .collect();
+        let errors = Errors::of(touches.iter().map(|(corners, wrench)| {
+            let Resolution::Contact(found) = model.resolve(wrench, &mesh) else { return None };
+            Some(distance(&found.point, &on_facet(*corners, wrench)) / size)
+        }));
+        let timed = time(study.effort, touches.len(), || {
+            for (_, wrench) in &touches {
+                black_box(model.resolve(black_box(wrench), &mesh));
+            }
+        });
+        study.push(name, "soft finger", "spin", errors, Some(timed));
+    }
+    Ok(())
+}
+
+/// Point contacts as columns.
+fn batch<T: Real>(study: &mut Study<'_>, name: &'static str, surface: &impl BatchSurface<T>, level: Level) {
+    let size = level.size(SCALE);
+    let mut random = Pcg64Mcg::seed_from_u64(15);
+    // No multiple of a page, whose columns would compete for the lines of the cache.
+    let touches: Vec<(Vector3<f64>, Wrench<T>)> = (0..study.effort.choose(72, 1000))
+        .map(|_| {
+            let (point, normal) = level.sample(&mut random, SCALE);
+            let force = pressing(&normal, random.random_range(0.5..1.0), &mut random) * 2.0;
+            (point, Touch { point, force, normal, spin: 0.0 }.wrench(false, 0.0, size, &mut random))
+        })
+        .collect();
+    let column = |k: usize, pick: fn(&Wrench<T>) -> Vector3<T>| -> Vec<T> {
+        touches.iter().map(|(_, wrench)| pick(wrench)[k]).collect()
+    };
+    let force = [0, 1, 2].map(|k| column(k, Wrench::force));
+    let torque = [0, 1, 2].map(|k| column(k, Wrench::torque));
+    let mut found = [(); 7].map(|()| vec![T::zero(); touches.len()]);
+    let mut resolve = || {
+        let [px, py, pz, nx, ny, nz, gap] = found.each_mut().map(|column| &mut column[..]);
+        surface.contacts(
+            Wrenches { force: force.each_ref().map(|v| &v[..]), torque: torque.each_ref().map(|v| &v[..]) },
+            Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
+        );
+        black_box(&mut found);
+    };
+    let timed = time(study.effort, touches.len(), &mut resolve);
+    let [px, py, pz, .., gap] = &found;
+    let errors = Errors::of(touches.iter().take(64).enumerate().filter_map(|(k, (point, wrench))| {
+        if !gap[k].is_zero() {
+            return Some(None);
+        }
+        let place = Vector3::new(px[k], py[k], pz[k]);
+        Some(Some(distance(&place, &point_contact(level, wrench, point)?) / size))
+    }));
+    study.push(name, "point contact, batch", "force", errors, Some(timed));
+}
+
+/// On the shapes that have a kernel.
+pub(super) fn batches<T: Real>(study: &mut Study<'_>) -> Result<(), Failure> {
+    let (l, scale) = (T::literal, SCALE);
+    let rounded = |x: f64| l(x * scale).to_f64();
+    let (o, z) = (Vector3::zeros(), Vector3::z());
+    batch(study, "sphere", &Sphere::<T>::centred(l(scale))?, Level::Sphere { radius: rounded(1.0) });
+    let semi_axes = [1.0, 0.7, 0.4].map(rounded);
+    let ellipsoid = Ellipsoid::new(Vector3::from(semi_axes.map(l)))?;
+    batch(study, "ellipsoid", &ellipsoid, Level::Ellipsoid { semi_axes });
+    batch(study, "cylinder", &Cylinder::new(o, z, l(scale))?, Level::Cylinder { radius: rounded(1.0) });
+    let capsule = Capsule::new(o, z, l(scale), l(1.5 * scale))?;
+    let level = Level::Capsule { half_length: rounded(1.5), radius: rounded(1.0) };
+    batch(study, "capsule", &capsule, level);
+    Ok(())
+}
