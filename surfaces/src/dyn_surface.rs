@@ -188,8 +188,8 @@ impl<T: Real> Shortcuts<T> for DynSurface<T> {
         each_surface!(self, shape => shape.shortcuts().entry_in_double(line, near))
     }
 
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
-        each_surface!(self, shape => shape.shortcuts().grazing_entry_in_double(line, near))
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        each_surface!(self, shape => shape.shortcuts().posed_entry_in_double(line, near))
     }
 }
 

@@ -91,11 +91,10 @@ pub trait Shortcuts<T: Real>: Sized {
         None
     }
 
-    /// The same where the force all but grazes, so that a line which enters is a tangent by the digits of a narrower type;
-    /// and of a shape that a pose puts in place, whose rounding is none that a residual undoes.
+    /// The same, of a shape that a pose puts in place: its rounding in a narrower type is none that a residual undoes.
     /// The default is [`entry_in_double`](Self::entry_in_double).
     #[inline(always)]
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         self.entry_in_double(line, near)
     }
 
@@ -149,8 +148,8 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for &S {
     }
 
     #[inline(always)]
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
-        (**self).grazing_entry_in_double(line, near)
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        (**self).posed_entry_in_double(line, near)
     }
 }
 
@@ -178,8 +177,8 @@ impl<T: Real, S: Shortcuts<T>, F: Fn(&Entry<T>) -> bool> Shortcuts<T> for Within
     }
 
     #[inline(always)]
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
-        self.whole.grazing_entry_in_double(line, near)
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        self.whole.posed_entry_in_double(line, near)
     }
 }
 
@@ -208,7 +207,7 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for Moved<'_, T, S> {
     fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         let pose = FinePose::new(self.pose);
         let [point, normal] =
-            self.inner.grazing_entry_in_double(&pose.line_inside(line), &pose.point_inside(near))?;
+            self.inner.posed_entry_in_double(&pose.line_inside(line), &pose.point_inside(near))?;
         Some([pose.point_outside(&point), pose.normal_outside(&normal).0])
     }
 }

@@ -60,12 +60,11 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
     (point, normal): (Vector3<T>, Vector3<T>),
     incidence: T,
 ) -> (Vector3<T>, Vector3<T>) {
-    let squared = incidence * incidence;
-    if let Some(found) = in_double(wrench, surface, &point, squared < T::literal(64.0) * T::EPSILON) {
+    if let Some(found) = in_double(wrench, surface, &point) {
         return found;
     }
     // Below √ε/2 the place is known to half of the digits.
-    if squared < T::literal(0.25) * T::EPSILON {
+    if incidence * incidence < T::literal(0.25) * T::EPSILON {
         return (point, normal);
     }
     let scale = reach(&wrench.force()).normalising_factor();
@@ -97,14 +96,12 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
 }
 
 /// Where the line of action enters near a point, in double precision for a type that is narrower, if the surface knows:
-/// that the steps above end where they should, digits of a normal must follow from those of its point, and the line must
-/// enter by those of the type. `grazes` where it may be a tangent by these.
+/// that the steps above end where they should, digits of a normal must follow from those of its point.
 #[inline(always)]
 pub(super) fn in_double<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     near: &Vector3<T>,
-    grazes: bool,
 ) -> Option<(Vector3<T>, Vector3<T>)> {
     if !is_asked_again::<T>() {
         return None;
@@ -113,12 +110,7 @@ pub(super) fn in_double<T: Real, S: ActiveSurface<T>>(
     let (f, m) = (wide(&wrench.force()), wide(&wrench.torque()));
     let squared = f.norm_squared();
     let line = Line { point: f.cross(&m) / squared, direction: f / squared.root() };
-    let shortcuts = surface.shortcuts();
-    let [point, normal] = if grazes {
-        shortcuts.grazing_entry_in_double(&line, &wide(near))?
-    } else {
-        shortcuts.entry_in_double(&line, &wide(near))?
-    };
+    let [point, normal] = surface.shortcuts().entry_in_double(&line, &wide(near))?;
     (normal.dot(&f) < 0.0).then(|| (point.map(T::literal), normal.map(T::literal)))
 }
 

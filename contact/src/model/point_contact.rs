@@ -321,7 +321,7 @@ impl<T: Real> PointContact<T> {
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.
         if let (Some(crossing), true) = (seen.tangent, self.least_incidence <= T::zero()) {
-            return Some(Ok(entered(wrench, surface, (crossing.point, crossing.normal), T::zero())));
+            return Some(Ok(Place::at(crossing.point, crossing.normal)));
         }
         seen.reason().map(Err)
     }
@@ -357,7 +357,7 @@ impl<T: Real> PointContact<T> {
         let hair = T::EPSILON * T::literal(64.0) * largest(&point);
         if active
             && gap <= hair
-            && let Some((point, normal)) = in_double(wrench, surface, &point, true)
+            && let Some((point, normal)) = in_double(wrench, surface, &point)
             && -line.direction.dot(&normal) >= self.least_incidence
         {
             return Ok(Place::at(point, normal));

@@ -13,7 +13,7 @@ use crate::soft_finger::closed_form::{soft_finger, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
-use crate::soft_finger::rim::{on_rim, turned_at_tip};
+use crate::soft_finger::rim::on_rim;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on the unbounded cone: the closed form of
@@ -188,45 +188,21 @@ fn steeply_on_cone<T: Real>(cone: &Cone<T>, push: &ForceLine<T>) -> Option<SoftC
 }
 
 /// The contact on the side, or at the tip, on which any normal will do that is steeper than the side's.
-///
-/// # Errors
-/// As [`on_cone`]; [`Search::Incomplete`] too where rounding decides between the side and the tip, or where on the side
-/// the contact is.
 fn on_side_or_tip<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
-    let found = on_cone(cone, wrench);
-    if let Ok(contact) = &found {
-        return if is_told(cone, wrench, contact) { found } else { Err(Search::Incomplete) };
+    let mut found = on_cone(cone, wrench);
+    if found.is_err() {
+        let (apex, tip) = (cone.apex(), -cone.axis());
+        let (least, _) = cone.half_angle_sin_cos();
+        on_rim(
+            T::zero(),
+            &tip,
+            &wrench.force(),
+            &wrench.torque_about(&apex),
+            |normal, _| normal.dot(&tip) >= least,
+            |contact| found = Ok(SoftContact { point: apex, ..contact }),
+        );
     }
-    let (apex, tip) = (cone.apex(), -cone.axis());
-    let (sine, _) = cone.half_angle_sin_cos();
-    let mut at_tip = None;
-    on_rim(
-        T::zero(),
-        &tip,
-        &wrench.force(),
-        &wrench.torque_about(&apex),
-        |_, _| true,
-        |contact| at_tip = Some(SoftContact { point: apex, ..contact }),
-    );
-    let Some(contact) = at_tip else { return found };
-    let hair = turned_at_tip(wrench, &apex);
-    let above = contact.normal.dot(&tip) - sine;
-    if above > hair {
-        Ok(contact)
-    } else if above >= -hair {
-        Err(Search::Incomplete)
-    } else {
-        found
-    }
-}
-
-/// Whether the numbers tell where along the side a contact is.
-///
-/// Without curvature along it, a spin torque `τ` tells the place at a distance `ℓ` from the tip by the turn of the
-/// normal that the force makes, `(ℓ f·n/τ)²/2`: not if that is no more than rounding.
-fn is_told<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>, contact: &SoftContact<T>) -> bool {
-    let lever = length(&(contact.point - cone.apex())) * wrench.force().dot(&contact.normal).abs();
-    contact.spin_torque.abs() * (T::literal(8.0) * T::EPSILON.root()) <= lever
+    found
 }
 
 /// The same, in double precision if the type is narrower and the force meets the side at a flat angle or the spin

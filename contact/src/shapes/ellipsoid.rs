@@ -5,13 +5,13 @@ use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, cross, dot, scale, times};
 use crate::uncertainty::geometry::stretched;
-use fingertip_surfaces::numeric::vectors::{larger, largest, length, taming_factor};
+use fingertip_surfaces::numeric::vectors::{larger, largest, taming_factor};
 use fingertip_surfaces::{Ellipsoid, ForceLine, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::{soft_finger, told};
-use crate::soft_finger::double::{finely, unless_grazing};
+use crate::soft_finger::double::unless_grazing;
 use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{Search, SoftContact};
 
@@ -31,8 +31,8 @@ pub(super) fn on_ellipsoid<T: Real>(
     // Lengths in units of the largest semi-axis, by a power of two; then the product of two
     // reciprocals is at least 1/4 and overflows only where the shape itself is not representable.
     let unit = largest(&semi_axes).normalising_factor();
-    let longest = unit.normalising_factor();
-    let b = shape.curvatures() * longest;
+    let length = unit.normalising_factor();
+    let b = shape.curvatures() * length;
     let f = wrench.force().component_mul(&b);
     let m = wrench.torque().component_mul(&(across(&b) * unit));
     let scale = taming_factor(larger(largest(&f), largest(&m)));
@@ -87,31 +87,13 @@ fn across<T: Real>(b: &Vector3<T>) -> Vector3<T> {
     Vector3::new(b.y * b.z, b.z * b.x, b.x * b.y)
 }
 
-/// In double precision if the type is narrower and the force grazes, by a cosine of which that has half of the digits.
-fn on_ellipsoid_finely<T: Real>(
-    shape: &Ellipsoid<T>,
-    wrench: &Wrench<T>,
-) -> Result<SoftContact<T>, Search<T>> {
-    let (force, found) = (wrench.force(), on_ellipsoid(shape, wrench).map_err(Search::Grazing));
-    let least = length(&force) * T::EPSILON.root() * T::literal(8.0);
-    let presses = |contact: &SoftContact<T>| -force.dot(&contact.normal) >= least;
-    finely(found, presses, wrench, |wrench| ellipsoid_in_double(shape, wrench))
-}
-
-fn ellipsoid_in_double<T: Real>(
-    shape: &Ellipsoid<T>,
-    wrench: &Wrench<f64>,
-) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    unless_grazing::<T>(wrench, on_ellipsoid(&shape.in_double()?, wrench))
-}
-
 soft_finger!(
     Ellipsoid,
-    |shape, wrench, _, visit| told(on_ellipsoid_finely(shape, wrench), visit),
+    |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_ellipsoid(shape, push),
     double | shape,
-    wrench | ellipsoid_in_double(shape, wrench),
+    wrench | shape.in_double().and_then(|double| unless_grazing::<T>(wrench, on_ellipsoid(&double, wrench))),
     // The three semi-axes.
     sizes | shape,
     size,

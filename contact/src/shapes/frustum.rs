@@ -16,7 +16,7 @@ use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
-use crate::soft_finger::rim::{on_rim, turned_at_tip};
+use crate::soft_finger::rim::on_rim;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
@@ -47,8 +47,6 @@ pub(super) fn on_frustum<T: Real>(
         }
         // The side's normal has this much along the end's.
         let lean = if outward == axis { sine } else { -sine };
-        // Where rounding decides between a tip and the side, neither is said.
-        let hair = if radius.is_zero() { turned_at_tip(wrench, &origin) } else { T::zero() };
         let mut found = None;
         on_rim(
             radius,
@@ -62,7 +60,7 @@ pub(super) fn on_frustum<T: Real>(
                 } else {
                     normal.dot(ring)
                 };
-                out >= T::zero() && cosine * up >= lean * out + hair
+                out >= T::zero() && cosine * up >= lean * out
             },
             |contact| found = Some(SoftContact { point: contact.point + origin, ..contact }),
         );

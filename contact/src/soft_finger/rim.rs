@@ -1,7 +1,6 @@
 //! Edges and tips that have a range of normals.
 
-use fingertip_surfaces::numeric::vectors::{largest, length};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use super::closed_form::is_pure_force;
@@ -38,12 +37,6 @@ pub(crate) fn on_rim<T: Real>(
     for outward in around(axis, &across, radius * force.dot(axis)).into_iter().flatten() {
         try_at(outward);
     }
-}
-
-/// How far rounding of the wrench may turn the normal that the torque tells at a tip.
-pub(crate) fn turned_at_tip<T: Real>(wrench: &Wrench<T>, tip: &Vector3<T>) -> T {
-    let parts = largest(&wrench.torque()) + largest(tip) * largest(&wrench.force());
-    T::EPSILON * T::literal(16.0) * (parts / length(&wrench.torque_about(tip)))
 }
 
 /// The same on an ellipse with these semi-axes along the first two axes; `axis` is the third, either way.

@@ -165,11 +165,11 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> Shortcuts<T> for Compoun
         }
     }
 
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         if self.is_of_first(&near.map(T::literal), None) {
-            self.first.shortcuts().grazing_entry_in_double(line, near)
+            self.first.shortcuts().posed_entry_in_double(line, near)
         } else {
-            self.second.shortcuts().grazing_entry_in_double(line, near)
+            self.second.shortcuts().posed_entry_in_double(line, near)
         }
     }
 }

@@ -263,7 +263,7 @@ impl<T: Real> Shortcuts<T> for Cone<T> {
         self.axis.outside_cone_by(point, T::zero(), taper, self.cosine)
     }
 
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         entry_near(&self.in_double()?, line, near)
     }
 }

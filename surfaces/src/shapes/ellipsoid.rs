@@ -234,7 +234,7 @@ impl<T: Real> Shortcuts<T> for Ellipsoid<T> {
         excess / (length(&gradient) * T::literal(2.0))
     }
 
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         entry_near(&self.in_double()?, line, near)
     }
 }

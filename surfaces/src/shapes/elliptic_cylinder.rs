@@ -280,7 +280,7 @@ impl<T: Real> Shortcuts<T> for EllipticCylinder<T> {
         }
     }
 
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         entry_near(&self.in_double()?, line, near)
     }
 }

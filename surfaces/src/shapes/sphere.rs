@@ -182,7 +182,7 @@ impl<T: Real> Shortcuts<T> for Sphere<T> {
         outside_ball(from_centre, self.radius * self.scale) / self.scale
     }
 
-    fn grazing_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         entry_near(&self.in_double()?, line, near)
     }
 }
