@@ -34,7 +34,7 @@ fn rows<T: Real, S: SoftFingerSurface<T> + Exact + Drawn + Debug>(
     let mut tell = |what: Option<&str>, trial: &dyn Debug| {
         if let Some(what) = what
             && shown
-            && told < 60
+            && told < 5
         {
             told += 1;
             println!("{what}: {trial:?}");

@@ -210,7 +210,8 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
         let far = length(&point).to_f64() + self.size;
         let lever = length(&load.torque).to_f64() + length(&load.force).to_f64() * far;
         let turned = distance(&found.normal, &exactly) / (1.0 + load.steepest(&self.surface, &point) * far);
-        let on_surface = height.abs().to_f64() <= goal::<T>() * far && turned <= goal::<T>();
+        // Where a line grazes a normal is known to the root of what a place is.
+        let on_surface = height.abs().to_f64() <= goal::<T>() * far && turned <= goal::<T>().sqrt();
         length(&rest).to_f64() <= goal::<T>() * lever && on_surface
     }
 
