@@ -22,8 +22,8 @@ pub(crate) fn finely<T: Real>(
     match again(&widened(wrench)) {
         Some(Ok(contact)) => Ok(narrow(&contact)),
         Some(Err(pair @ Search::Grazing(_))) => Err(in_type(pair)),
-        // There is none, or more digits than those of the type do not tell; what the rounding of the wrench could make of
-        // it is for the narrower type to say.
+        // There is none, or double precision does not find it; what the rounding of the wrench could make of it is for the
+        // narrower type to say.
         Some(Err(Search::Complete | Search::Incomplete | Search::Uncertified)) => {
             found.and(Err(Search::Incomplete))
         }

@@ -235,7 +235,7 @@ fn solve<W: Wide, T: Real>(
             let (point, normal, spin) = (rounded(point), rounded(normal), spin.rounded());
             return Some(End { point, normal, spin, flat: is_flat(&patch) });
         }
-        // Nor is a step on another part that is no shorter than the one that led there.
+        // A step on another part that is no shorter than the one that led there leads away.
         if crossed && kind == Start::Rounded && size + size > before {
             return None;
         }

@@ -53,15 +53,15 @@ impl Load {
         length(&bend1).to_f64().max(length(&bend2).to_f64())
     }
 
-    /// How far two contacts are from merging at a place, `|τ²κ + (f·n)²|/|f|²`, and `f·n/|f|`.
-    pub(crate) fn apart(&self, surface: &impl Exact, point: &Big3, spin: &Big) -> (f64, f64) {
+    /// How far two contacts are from merging at a place, `|τ²κ + (f·n)²|/|f|²`.
+    pub(crate) fn apart(&self, surface: &impl Exact, point: &Big3, spin: &Big) -> f64 {
         let (_, n) = surface.height_and_normal(point);
         let (e1, e2) = across(&n);
         let [bend1, bend2] = self.bends(surface, point, [&e1, &e2]);
         let curvature = dot(&e1, &bend1) * dot(&e2, &bend2) - dot(&e1, &bend2) * dot(&e2, &bend1);
         let (pressing, strength) = (dot(&self.force, &n), self.magnitude());
         let index = curvature * *spin * *spin + pressing * pressing;
-        ((index / (strength * strength)).to_f64().abs(), (pressing / strength).to_f64())
+        (index / (strength * strength)).to_f64().abs()
     }
 
     /// On the surface without edges.

@@ -194,12 +194,12 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
     fn merges(&self, load: &Load, found: &Contact<T>) -> bool {
         let magnitude = self.wrench.force().map(Real::to_f64).norm();
         let spin = &number(found.spin_torque) * &number(2.0_f64.powi(-(magnitude.log2() as i32)));
-        let (apart, pulling) = load.apart(&self.surface, &wide(&found.point), &spin);
+        let apart = load.apart(&self.surface, &wide(&found.point), &spin);
         // What rounding does has moved them by its root.
-        apart <= 100.0 * goal::<T>() && pulling <= goal::<T>().sqrt() && self.solves(load, found)
+        apart <= 100.0 * goal::<T>() && self.solves(load, found)
     }
 
-    /// Whether a contact solves the equations but for the rounding of its own numbers.
+    /// Whether a contact solves the equations, and presses, but for the rounding of its own numbers.
     fn solves(&self, load: &Load, found: &Contact<T>) -> bool {
         let (point, normal) = (wide(&found.point), wide(&found.normal));
         let (height, exactly) = self.surface.height_and_normal(&point);
@@ -212,7 +212,8 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
         let turned = distance(&found.normal, &exactly) / (1.0 + load.steepest(&self.surface, &point) * far);
         // Where a line grazes a normal is known to the root of what a place is.
         let on_surface = height.abs().to_f64() <= goal::<T>() * far && turned <= goal::<T>().sqrt();
-        length(&rest).to_f64() <= goal::<T>() * lever && on_surface
+        let pulling = dot(&load.force, &normal).to_f64() / length(&load.force).to_f64();
+        length(&rest).to_f64() <= goal::<T>() * lever && on_surface && pulling <= goal::<T>().sqrt()
     }
 
     /// Of point, normal and spin torque, in units of the goal.
