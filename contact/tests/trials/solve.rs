@@ -13,6 +13,25 @@ pub(crate) struct Truth {
     pub(crate) steepest: f64,
 }
 
+/// Two ways across a normal, and how it turns along each.
+pub(crate) struct Turn {
+    ways: [Big3; 2],
+    bends: [Big3; 2],
+}
+
+impl Turn {
+    /// `EᵀWE`, row by row.
+    fn matrix(&self) -> [Big; 4] {
+        let ([e1, e2], [bend1, bend2]) = (&self.ways, &self.bends);
+        [dot(e1, bend1), dot(e1, bend2), dot(e2, bend1), dot(e2, bend2)]
+    }
+
+    pub(crate) fn steepest(&self) -> f64 {
+        let [bend1, bend2] = &self.bends;
+        length(bend1).to_f64().max(length(bend2).to_f64())
+    }
+}
+
 /// Force and torque in units of the size and of the force, and the size.
 pub(crate) struct Load {
     pub(crate) force: Big3,
@@ -34,33 +53,26 @@ impl Load {
         self.on_smooth(surface, big3(near)).filter(|truth| surface.holds(&truth.point))
     }
 
-    /// How the normal turns along two ways in the tangent plane: central differences, exact to 1e-18.
-    fn bends(&self, surface: &impl Exact, point: &Big3, ways: [&Big3; 2]) -> [Big3; 2] {
+    /// How the normal turns: central differences, exact to 1e-18.
+    pub(crate) fn turn(&self, surface: &impl Exact, point: &Big3, normal: &Big3) -> Turn {
         let stride = Big::new(1e-9 * self.size);
-        ways.map(|way| {
+        let along = |way: &Big3| {
             let step = times(way, &stride);
             let there = surface.height_and_normal(&plus(point, &step)).1;
             let back = surface.height_and_normal(&minus(point, &step)).1;
             times(&minus(&there, &back), &(&Big::new(0.5) / &stride))
-        })
-    }
-
-    /// The steepest curvature at a place.
-    pub(crate) fn steepest(&self, surface: &impl Exact, point: &Big3) -> f64 {
-        let (_, n) = surface.height_and_normal(point);
-        let (e1, e2) = across(&n);
-        let [bend1, bend2] = self.bends(surface, point, [&e1, &e2]);
-        length(&bend1).to_f64().max(length(&bend2).to_f64())
+        };
+        let (e1, e2) = across(normal);
+        let bends = [along(&e1), along(&e2)];
+        Turn { ways: [e1, e2], bends }
     }
 
     /// How far two contacts are from merging at a place, `|τ²κ + (f·n)²|/|f|²`.
     pub(crate) fn apart(&self, surface: &impl Exact, point: &Big3, spin: &Big) -> f64 {
         let (_, n) = surface.height_and_normal(point);
-        let (e1, e2) = across(&n);
-        let [bend1, bend2] = self.bends(surface, point, [&e1, &e2]);
-        let curvature = dot(&e1, &bend1) * dot(&e2, &bend2) - dot(&e1, &bend2) * dot(&e2, &bend1);
+        let [w11, w12, w21, w22] = self.turn(surface, point, &n).matrix();
         let (pressing, strength) = (dot(&self.force, &n), self.magnitude());
-        let index = curvature * *spin * *spin + pressing * pressing;
+        let index = (w11 * w22 - w12 * w21) * *spin * *spin + pressing * pressing;
         (index / (strength * strength)).to_f64().abs()
     }
 
@@ -74,20 +86,18 @@ impl Load {
         for taken in 0..240 {
             let (height, n) = surface.height_and_normal(&point);
             let rest = minus(&minus(m, &cross(&point, f)), &times(&n, &spin));
-            let (e1, e2) = across(&n);
-            let [bend1, bend2] = self.bends(surface, &point, [&e1, &e2]);
-            let steepest = length(&bend1).to_f64().max(length(&bend2).to_f64());
+            let turn = self.turn(surface, &point, &n);
+            let (steepest, [e1, e2]) = (turn.steepest(), &turn.ways);
             // τ W a + a × f = rest − (−h n) × f in the plane across n, a being the step along it.
             let rest_there = plus(&rest, &times(&cross(&n, f), &height));
-            let [w11, w12, w21, w22] =
-                [dot(&e1, &bend1), dot(&e1, &bend2), dot(&e2, &bend1), dot(&e2, &bend2)].map(|w| w * spin);
-            let (r1, r2, pressing) = (dot(&e1, &rest_there), dot(&e2, &rest_there), dot(f, &n));
+            let [w11, w12, w21, w22] = turn.matrix().map(|w| w * spin);
+            let (r1, r2, pressing) = (dot(e1, &rest_there), dot(e2, &rest_there), dot(f, &n));
             // e1·(a × f) = a₂ f·n, e2·(a × f) = −a₁ f·n but for the part of f along the plane, which n has.
             let [j12, j21] = [w12 + pressing, w21 - pressing];
             let determinant = w11 * w22 - j12 * j21;
             let a1 = (w22 * r1 - j12 * r2) / determinant;
             let a2 = (w11 * r2 - j21 * r1) / determinant;
-            let step = minus(&plus(&times(&e1, &a1), &times(&e2, &a2)), &times(&n, &height));
+            let step = minus(&plus(&times(e1, &a1), &times(e2, &a2)), &times(&n, &height));
             let twist = dot(&n, &minus(&rest, &cross(&step, f)));
             let longest = length(&step).to_f64() / self.size;
             if !longest.is_finite() {

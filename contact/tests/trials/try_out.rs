@@ -8,7 +8,7 @@ use fingertip_contact::{
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::big::{big3, cross, dot};
+use crate::big::{Big, big3, cross, dot};
 use crate::draw::Drawn;
 use crate::exact::{Exact, distance, length, minus, number, plus, times, wide};
 use crate::solve::{Load, Truth};
@@ -103,10 +103,20 @@ pub(crate) fn draw<T: Real, S: Drawn>(random: &mut Random, asked: Asked) -> Opti
 }
 
 impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
+    /// What forces are multiplied by, a power of two.
+    fn unit(&self) -> Big {
+        let magnitude = self.wrench.force().map(Real::to_f64).norm();
+        number(2.0_f64.powi(-(magnitude.log2() as i32)))
+    }
+
+    /// The spin torque of a contact in that unit.
+    fn spin(&self, found: &Contact<T>) -> Big {
+        &number(found.spin_torque) * &self.unit()
+    }
+
     /// The load to 31 digits; for a point contact without the torque along the force, which it takes for none.
     fn load(&self, asked: Asked) -> Load {
-        let magnitude = self.wrench.force().map(Real::to_f64).norm();
-        let unit = number(2.0_f64.powi(-(magnitude.log2() as i32)));
+        let unit = self.unit();
         let force = times(&wide(&self.wrench.force()), &unit);
         let mut torque = times(&wide(&self.wrench.torque()), &unit);
         if asked == Asked::Point {
@@ -129,6 +139,11 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
         }
     }
 
+    /// Whether a contact can be meant by a truth.
+    fn is_close(&self, truth: &Truth, found: &Contact<T>) -> bool {
+        distance(&found.point, &truth.point) <= 1e-3 * self.size
+    }
+
     /// The truth nearest to a contact.
     fn truth(&self, asked: Asked, load: &Load, found: &Contact<T>) -> Option<Truth> {
         let point = found.point.map(Real::to_f64);
@@ -137,8 +152,7 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
         let is_asked_for =
             |truth: &Truth| asked != Asked::Point || truth.spin.abs().to_f64() <= 1e-20 * lever.to_f64();
         let from_found = load.contact(&self.surface, point.into()).filter(is_asked_for);
-        let is_close = |truth: &Truth| distance(&found.point, &truth.point) <= 1e-3 * self.size;
-        if from_found.as_ref().is_some_and(is_close) {
+        if from_found.as_ref().is_some_and(|truth| self.is_close(truth, found)) {
             return from_found;
         }
         let from_start = load.contact(&self.surface, self.near.into()).filter(is_asked_for);
@@ -162,7 +176,7 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
                     count.false_contacts += 1;
                     return Some("false");
                 };
-                if distance(&found.point, &truth.point) > 1e-3 * self.size && self.merges(&load, &found) {
+                if !self.is_close(&truth, &found) && self.merges(&load, &found) {
                     count.unjudged += 1;
                     return None;
                 }
@@ -192,9 +206,7 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
 
     /// Whether a contact solves the equations where two contacts merge, and so rounding may have taken both.
     fn merges(&self, load: &Load, found: &Contact<T>) -> bool {
-        let magnitude = self.wrench.force().map(Real::to_f64).norm();
-        let spin = &number(found.spin_torque) * &number(2.0_f64.powi(-(magnitude.log2() as i32)));
-        let apart = load.apart(&self.surface, &wide(&found.point), &spin);
+        let apart = load.apart(&self.surface, &wide(&found.point), &self.spin(found));
         // What rounding does has moved them by its root.
         apart <= 100.0 * goal::<T>() && self.solves(load, found)
     }
@@ -203,13 +215,12 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
     fn solves(&self, load: &Load, found: &Contact<T>) -> bool {
         let (point, normal) = (wide(&found.point), wide(&found.normal));
         let (height, exactly) = self.surface.height_and_normal(&point);
-        let magnitude = self.wrench.force().map(Real::to_f64).norm();
-        let unit = number(2.0_f64.powi(-(magnitude.log2() as i32)));
-        let spin = &number(found.spin_torque) * &unit;
-        let rest = minus(&minus(&load.torque, &cross(&point, &load.force)), &times(&normal, &spin));
+        let turning = times(&normal, &self.spin(found));
+        let rest = minus(&minus(&load.torque, &cross(&point, &load.force)), &turning);
         let far = length(&point).to_f64() + self.size;
         let lever = length(&load.torque).to_f64() + length(&load.force).to_f64() * far;
-        let turned = distance(&found.normal, &exactly) / (1.0 + load.steepest(&self.surface, &point) * far);
+        let steepest = load.turn(&self.surface, &point, &exactly).steepest();
+        let turned = distance(&found.normal, &exactly) / (1.0 + steepest * far);
         // Where a line grazes a normal is known to the root of what a place is.
         let on_surface = height.abs().to_f64() <= goal::<T>() * far && turned <= goal::<T>().sqrt();
         let pulling = dot(&load.force, &normal).to_f64() / length(&load.force).to_f64();
@@ -231,8 +242,7 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
             .normal
             .as_ref()
             .map_or(0.0, |normal| distance(&found.normal, normal) / (1.0 + truth.steepest * far));
-        let unit = number(2.0_f64.powi(-((self.wrench.force().map(Real::to_f64).norm()).log2() as i32)));
-        let spin = &number(found.spin_torque) * &unit;
+        let spin = self.spin(found);
         // Of an edge the magnitude is known.
         let turned = truth.normal.is_none() && !spin.is_positive();
         let known = if turned { -truth.spin } else { truth.spin };

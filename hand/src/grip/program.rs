@@ -12,8 +12,6 @@ use crate::grip::iterate::{Each, Iterate};
 use crate::grip::kernels::add;
 use crate::grip::workspace::Workspace;
 
-mod tests;
-
 /// Minimise `Σ cost y₀` with `Σ map y = wrench`, `y` in the cones and the half-spaces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Program<T: Real, const N: usize, const ROWS: usize> {
@@ -269,3 +267,6 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,8 +9,6 @@ use crate::grip::program::{Missing, Program};
 use crate::grip::scaled::Scaled;
 use crate::grip::workspace::Workspace;
 
-mod tests;
-
 /// Most corrections of a step after the first.
 const MORE_CORRECTIONS: usize = 3;
 
@@ -224,3 +222,6 @@ impl<T: Real, const N: usize, const ROWS: usize> Program<T, N, ROWS> {
         true
     }
 }
+
+#[cfg(test)]
+mod tests;

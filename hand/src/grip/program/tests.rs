@@ -1,5 +1,4 @@
 //! What an iterate misses, by equations that were made to hold.
-#![cfg(test)]
 
 use nalgebra::{Matrix6x4, Vector4, Vector6};
 use rand::{RngExt, SeedableRng};

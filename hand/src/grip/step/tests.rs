@@ -1,5 +1,4 @@
 //! What a step leaves, and what its corrections are.
-#![cfg(test)]
 
 use super::{Aim, Direction, System};
 use crate::grip::block::{Block, Row};
