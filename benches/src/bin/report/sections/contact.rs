@@ -5,10 +5,10 @@ mod noise;
 mod peers;
 mod study;
 
-use many::{batches, on_meshes};
+use many::{MESHES, batches, on_meshes};
 use noise::over_noise;
 use peers::beside_parry;
-use study::{Figure, SCALE, Study};
+use study::{Figure, SCALE, SHAPES, Study};
 
 use super::Part;
 use crate::Failure;
@@ -92,18 +92,7 @@ fn in_short(figures: &[Figure]) -> Table {
         "error of the wrench axis with spin",
         "of the soft finger with noise of 1 %",
     ]);
-    for shape in [
-        "sphere",
-        "ellipsoid",
-        "cylinder",
-        "capsule",
-        "cone",
-        "torus",
-        "superquadric",
-        "mesh of 320",
-        "mesh of 5000",
-        "mesh of 82000",
-    ] {
+    for shape in SHAPES.into_iter().chain(MESHES.map(|(name, ..)| name)) {
         let find = |method: &str, scalar: &str, inputs: &str| {
             figures.iter().find(|f| {
                 f.shape == shape && f.method.starts_with(method) && f.scalar == scalar && f.inputs == inputs
@@ -174,7 +163,7 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     each::<f64>(SCALE, &mut study);
     batches::<f64>(&mut study)?;
     on_meshes::<f64>(&mut study)?;
-    for shape in ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"] {
+    for shape in SHAPES {
         let these: Vec<&Figure> = figures
             .iter()
             .filter(|f| {
@@ -184,9 +173,8 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
         let title = format!("Contact, {shape}: error over run time, without noise");
         page.diagram(&format!("contact_{shape}"), &diagram(title, &these))?;
     }
-    let these: Vec<&Figure> =
-        figures.iter().filter(|f| f.shape.starts_with("mesh") && f.inputs == "spin").collect();
-    let named: Vec<Figure> = these.into_iter().map(Figure::with_shape).collect();
+    let meshes = figures.iter().filter(|f| f.shape.starts_with("mesh") && f.inputs == "spin");
+    let named: Vec<Figure> = meshes.map(Figure::with_shape).collect();
     let title = "Soft finger on meshes of a ball: error over run time, without noise".to_owned();
     page.diagram("contact_meshes", &diagram(title, &named.iter().collect::<Vec<_>>()))?;
     page.diagram("contact_parry", &beside_parry_diagram(&figures))?;

@@ -20,7 +20,7 @@ use crate::stability::levels::Level;
 use crate::timing::time;
 
 /// A name, and the circles of latitude and of longitude of a ball of so many triangles.
-const MESHES: [(&str, u32, u32); 3] =
+pub(super) const MESHES: [(&str, u32, u32); 3] =
     [("mesh of 320", 9, 20), ("mesh of 5000", 50, 51), ("mesh of 82000", 203, 203)];
 
 /// The contact on the plane of a facet, exactly: `c = a + N × m_a/(f·N)` with the torque about the corner `a`.
@@ -28,10 +28,10 @@ fn on_facet<T: Real>(corners: [Vector3<T>; 3], wrench: &Wrench<T>) -> Big3 {
     let exactly = |v: Vector3<T>| big3(v.map(Real::to_f64).into());
     let [a, b, c] = corners.map(exactly);
     let (force, torque) = (exactly(wrench.force()), exactly(wrench.torque()));
-    let edge = |end: &Big3| [0, 1, 2].map(|k| &end[k] - &a[k]);
-    let normal = cross(&edge(&b), &edge(&c));
-    let (moved, slope) = (cross(&a, &force), dot(&force, &normal));
-    let across = cross(&normal, &[0, 1, 2].map(|k| &torque[k] - &moved[k]));
+    let minus = |x: &Big3, y: &Big3| [0, 1, 2].map(|k| &x[k] - &y[k]);
+    let normal = cross(&minus(&b, &a), &minus(&c, &a));
+    let slope = dot(&force, &normal);
+    let across = cross(&normal, &minus(&torque, &cross(&a, &force)));
     [0, 1, 2].map(|k| &a[k] + &(&across[k] / &slope))
 }
 

@@ -51,6 +51,10 @@ impl Touch {
     }
 }
 
+/// The shapes of one formula that are looked at.
+pub(super) const SHAPES: [&str; 7] =
+    ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"];
+
 #[derive(Clone)]
 pub(super) struct Figure {
     pub(super) shape: &'static str,
@@ -181,8 +185,6 @@ impl<T: Real> Visitor<T> for Study<'_> {
         level: Level,
         scale: f64,
     ) {
-        const SHAPES: [&str; 7] =
-            ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"];
         let (Ok(point), Ok(soft)) = (PointContact::new(T::zero()), SoftFinger::new(T::zero())) else {
             return;
         };
