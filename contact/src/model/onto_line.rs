@@ -38,6 +38,11 @@ pub(super) fn entered<T: Real, S: ActiveSurface<T>>(
     Place::at(point, normal)
 }
 
+/// The square of an incidence below which a place is known to less than half of the digits, `√ε/2`.
+fn flattest<T: Real>() -> T {
+    T::literal(0.25) * T::EPSILON
+}
+
 /// More steps than that do not help: from where rounding leaves a crossing next to tangency, seven do.
 const STEPS: usize = 8;
 
@@ -63,21 +68,42 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
     if let Some(found) = in_double(wrench, surface, &point) {
         return found;
     }
-    // Below √ε/2 the place is known to half of the digits.
-    if incidence * incidence < T::literal(0.25) * T::EPSILON {
+    let scaled = scaled(wrench);
+    if incidence * incidence < T::literal(1024.0) * T::EPSILON
+        && let Some(found) = through_chord(&scaled, surface, &point)
+    {
+        return found;
+    }
+    mended(&scaled, surface, (point, normal), incidence)
+}
+
+/// Force and torque times a factor that makes the force 1 or more.
+#[inline(never)]
+fn scaled<T: Real>(wrench: &Wrench<T>) -> [Vector3<T>; 2] {
+    let scale = reach(&wrench.force()).normalising_factor();
+    [wrench.force() * scale, wrench.torque() * scale]
+}
+
+/// The steps of [`onto_line`].
+#[inline(never)]
+fn mended<T: Real, S: ActiveSurface<T>>(
+    [f, m]: &[Vector3<T>; 2],
+    surface: &S,
+    (point, normal): (Vector3<T>, Vector3<T>),
+    incidence: T,
+) -> (Vector3<T>, Vector3<T>) {
+    if incidence * incidence < flattest() {
         return (point, normal);
     }
-    let scale = reach(&wrench.force()).normalising_factor();
-    let (f, m) = (wrench.force() * scale, wrench.torque() * scale);
     let (mut place, mut outward, mut before) = (point, normal, T::GREATEST);
     // The line is no farther away than that: the force is 1 or more in its own unit.
-    let size = reach(&point) + reach(&m);
+    let size = reach(&point) + reach(m);
     let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
     // Kept from being unrolled: it is code for few samples.
     for _ in 0..core::hint::black_box(STEPS) {
-        let off = off_line(&f, &m, &place);
-        let outside = surface.shortcuts().surface_residual(&place);
-        let step = off - f * ((outside + outward.dot(&off)) / outward.dot(&f));
+        let off = off_line(f, m, &place);
+        let outside = outside_by(surface, &place);
+        let step = off - f * ((outside + outward.dot(&off)) / outward.dot(f));
         let size = reach(&step);
         // False for a NaN, too.
         if !(size <= allowed && size <= before * T::literal(0.75)) {
@@ -85,9 +111,9 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
         }
         before = size;
         place += step;
-        let turned = surface.normal(&place);
+        let turned = normal_at(surface, &place);
         // Beside an edge, or where a surface is thin, a point may belong to another side.
-        if !(turned.dot(&f) < T::zero() && (turned - outward).norm_squared() < T::literal(0.1)) {
+        if !(turned.dot(f) < T::zero() && (turned - outward).norm_squared() < T::literal(0.1)) {
             break;
         }
         outward = turned;
@@ -95,10 +121,51 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
     (place, outward)
 }
 
+/// From rounding alone one round is enough.
+const ROUNDS: usize = 3;
+
+/// Where the line of action enters near a point at which it is a tangent but for rounding: the half chord `t` of
+/// `e + (n·d) t + κ t²/2 = 0` from a point of the line, along its direction `d`. The height `e` over the surface has
+/// twice the digits, with which the point is off the line, too; the curvature `κ` comes from a difference of normals.
+/// `None` where the line misses, or where the surface is not so.
+#[cold]
+#[inline(never)]
+fn through_chord<T: Real, S: ActiveSurface<T>>(
+    load: &[Vector3<T>; 2],
+    surface: &S,
+    near: &Vector3<T>,
+) -> Option<(Vector3<T>, Vector3<T>)> {
+    let [f, m] = load;
+    let direction = f / f.norm_squared().root();
+    let (mut point, mut incidence) = (*near, T::zero());
+    // From a far start, as of a line along a cylinder, one round leaves what rounding did to the curvature.
+    for _ in 0..core::hint::black_box(ROUNDS) {
+        let start = point + off_line(f, m, &point);
+        let normal = normal_at(surface, &start);
+        let outside = outside_by(surface, &start);
+        let height = outside + normal.dot(&off_line(f, m, &start));
+        let stride = (reach(&start) + reach(m)) * T::EPSILON.root();
+        let slope = direction.dot(&normal);
+        let bend = (direction.dot(&normal_at(surface, &(start + direction * stride))) - slope) / stride;
+        incidence = (slope * slope - (bend + bend) * height).root();
+        let falls = slope <= T::zero();
+        let along = if falls { (height + height) / (incidence - slope) } else { -(incidence + slope) / bend };
+        point = start + direction * along;
+        // A surface that does not tell its height says the same everywhere. False for a NaN, too, as of a line that misses.
+        let is_told = outside_by(surface, &(start + normal * stride)) > outside;
+        if !(is_told && incidence > T::zero() && point.sum().is_number()) {
+            return None;
+        }
+    }
+    let normal = normal_at(surface, &point);
+    let enters = normal.dot(f) < T::zero() && incidence * incidence >= flattest();
+    enters.then(|| mended(load, surface, (point, normal), incidence))
+}
+
 /// Where the line of action enters near a point, in double precision for a type that is narrower, if the surface knows:
 /// that the steps above end where they should, digits of a normal must follow from those of its point.
 #[inline(always)]
-pub(super) fn in_double<T: Real, S: ActiveSurface<T>>(
+fn in_double<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     near: &Vector3<T>,
@@ -114,10 +181,31 @@ pub(super) fn in_double<T: Real, S: ActiveSurface<T>>(
     (normal.dot(&f) < 0.0).then(|| (point.map(T::literal), normal.map(T::literal)))
 }
 
+/// Where the line of action enters near a point where it is a tangent for all that the digits of the type say.
+pub(super) fn by_more_digits<T: Real, S: ActiveSurface<T>>(
+    wrench: &Wrench<T>,
+    surface: &S,
+    near: &Vector3<T>,
+) -> Option<(Vector3<T>, Vector3<T>)> {
+    in_double(wrench, surface, near).or_else(|| through_chord(&scaled(wrench), surface, near))
+}
+
 /// Kept out of line, as it is asked often for few samples.
 #[inline(never)]
 fn reach<T: Real>(vector: &Vector3<T>) -> T {
     largest(vector)
+}
+
+/// Kept out of line, too.
+#[inline(never)]
+fn normal_at<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> Vector3<T> {
+    surface.normal(point)
+}
+
+/// Kept out of line, too.
+#[inline(never)]
+fn outside_by<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> T {
+    surface.shortcuts().surface_residual(point)
 }
 
 /// By how much a point is off the line of a force: `f × (m − x × f)/|f|²`.

@@ -10,7 +10,7 @@ use fingertip_wrench::{
 use nalgebra::Vector3;
 
 use super::long_way::long_way;
-use super::onto_line::{Place, entered, in_double};
+use super::onto_line::{Place, by_more_digits, entered};
 use super::seen::{Seen, too_flat};
 use super::{Contact, ContactModel, NoContact, Resolution};
 
@@ -353,11 +353,11 @@ impl<T: Real> PointContact<T> {
                 Err(too_flat(point, incidence))
             };
         }
-        // Rounding may make a line miss that meets: then double precision knows, where that is told.
+        // Rounding may make a line miss that meets: more digits know.
         let hair = T::EPSILON * T::literal(64.0) * largest(&point);
         if active
             && gap <= hair
-            && let Some((point, normal)) = in_double(wrench, surface, &point)
+            && let Some((point, normal)) = by_more_digits(wrench, surface, &point)
             && -line.direction.dot(&normal) >= self.least_incidence
         {
             return Ok(Place::at(point, normal));

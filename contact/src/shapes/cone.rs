@@ -14,6 +14,7 @@ use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
 use crate::soft_finger::rim::on_rim;
+use crate::soft_finger::tip::surely_on_cone;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on the unbounded cone: the closed form of
@@ -215,7 +216,9 @@ fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
         let radius = length(&(contact.point - cone.apex())) * cone.half_angle_sin_cos().0;
         is_steady(wrench, radius)(contact)
     };
-    finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| cone_in_double(cone, wrench))
+    let found =
+        finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| cone_in_double(cone, wrench));
+    surely_on_cone(wrench, cone, || (side_of_cone(cone), Some(cone.apex())), |_| true, found)
 }
 
 fn cone_in_double<T: Real>(
@@ -224,6 +227,15 @@ fn cone_in_double<T: Real>(
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
     let double = cone.in_double()?;
     Some(on_side_or_tip(&double, wrench).map(|contact| if_active(&double, contact)))
+}
+
+fn side_of_cone<T: Real>(cone: &Cone<T>) -> LocalSurface {
+    LocalSurface::Cone {
+        origin: wide(&cone.apex()),
+        axis: wide(&cone.axis()),
+        radius: 0.0,
+        taper: [0.0, Real::tangent(cone.half_angle().to_f64()), 1.0],
+    }
 }
 
 /// With what the depth of the cone says.
@@ -244,12 +256,7 @@ soft_finger!(
     double | shape,
     wrench | cone_in_double(shape, wrench),
     patch | shape,
-    _ | Some(LocalSurface::Cone {
-        origin: wide(&shape.apex()),
-        axis: wide(&shape.axis()),
-        radius: 0.0,
-        taper: [0.0, Real::tangent(shape.half_angle().to_f64()), 1.0],
-    }),
+    _ | Some(side_of_cone(shape)),
     sizes | shape, size, point | of_cone(shape, point).get(size).copied()
 );
 

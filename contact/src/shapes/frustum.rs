@@ -17,6 +17,7 @@ use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::newton::Problem;
 use crate::soft_finger::refined::settled;
 use crate::soft_finger::rim::on_rim;
+use crate::soft_finger::tip::surely_on_cone;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
@@ -194,17 +195,42 @@ fn solid_patch<T: Real>(
     } else if lean < (least - T::one()) * half {
         LocalSurface::Plane { point: end(ends[0]), normal: -axis }
     } else {
-        let [below, above] = [solid.base_radius(), solid.top_radius()].map(Real::to_f64);
-        LocalSurface::Cone { origin, axis, radius: below, taper: [below, above, solid.height().to_f64()] }
+        side_of_frustum(solid, middle)
+    }
+}
+
+/// The same where rounding decides between the side and a tip, or where on the side the contact is.
+fn surely_on_frustum<T: Real>(shape: &Frustum<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let found = on_frustum_finely(shape, wrench, on_side, |wrench| frustum_in_double(shape, wrench));
+    let (base, axis, height) = (shape.base_centre(), shape.axis(), shape.height());
+    let tip = || {
+        if shape.top_radius().is_zero() {
+            Some(base + axis * height)
+        } else {
+            shape.base_radius().is_zero().then_some(base)
+        }
+    };
+    let holds = |point: &Vector3<T>| {
+        let above = (point - base).dot(&axis);
+        above >= T::zero() && above <= height
+    };
+    surely_on_cone(wrench, shape, || (side_of_frustum(shape, &base), tip()), holds, found)
+}
+
+/// The side, unbounded, its base around this point of the axis.
+fn side_of_frustum<T: Real>(solid: &Frustum<T>, middle: &Vector3<T>) -> LocalSurface {
+    let [below, above] = [solid.base_radius(), solid.top_radius()].map(Real::to_f64);
+    LocalSurface::Cone {
+        origin: wide(middle),
+        axis: wide(&solid.axis()),
+        radius: below,
+        taper: [below, above, solid.height().to_f64()],
     }
 }
 
 soft_finger!(
     Frustum,
-    |shape, wrench, _, visit| told(
-        on_frustum_finely(shape, wrench, on_side, |wrench| frustum_in_double(shape, wrench)),
-        visit
-    ),
+    |shape, wrench, _, visit| told(surely_on_frustum(shape, wrench), visit),
     sole | shape,
     push | steeply_on_frustum(shape, push),
     double | shape,

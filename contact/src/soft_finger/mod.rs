@@ -14,6 +14,7 @@ pub(crate) mod rim;
 pub(crate) mod search;
 pub(crate) mod solution;
 mod three;
+pub(crate) mod tip;
 pub(crate) mod unit_sphere;
 
 pub use model::SoftFinger;

@@ -78,7 +78,12 @@ fn around<T: Real>(axis: &Vector3<T>, across: &Vector3<T>, lift: T) -> [Option<V
 }
 
 /// The contact at a point whose normal nothing but the torque tells.
-fn touching<T: Real>(point: Vector3<T>, force: &Vector3<T>, torque: &Vector3<T>, power: T) -> SoftContact<T> {
+pub(super) fn touching<T: Real>(
+    point: Vector3<T>,
+    force: &Vector3<T>,
+    torque: &Vector3<T>,
+    power: T,
+) -> SoftContact<T> {
     let rest = torque - point.cross(force);
     let scale = rest.amax().normalising_factor();
     let scaled = rest * scale;

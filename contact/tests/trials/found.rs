@@ -1,7 +1,7 @@
 //! Trials that were once wrong or lost among a million, each judged as there.
 
 use fingertip_contact::SoftFingerSurface;
-use fingertip_surfaces::{Capsule, Torus};
+use fingertip_surfaces::{Capsule, Cone, Frustum, Torus};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -50,4 +50,55 @@ fn a_large_spin_torque_next_to_a_seam() {
         [2.026_068_196_144_811, -2.756_499_370_171_335, 4.060_645_185_016_838],
         2.0,
     );
+}
+
+/// On the side of a cone, where the torque leans away from the normals of the side by half a rounding.
+#[test]
+fn on_the_side_of_a_cone_next_to_the_tip() {
+    let axis = Vector3::new(-0.960_012_537_320_125_9, -0.010_869_229_405_547_682, -0.279_745_934_805_679_44);
+    let count = judged(
+        Asked::Soft,
+        Cone::new(Vector3::zeros(), axis, 0.532_571_656_526_439_6).unwrap(),
+        [
+            [7.279_403_040_578_454e-9, 2.489_083_527_570_18e-8, 1.623_200_433_754_143_6e-8],
+            [1.799_332_638_094_836_7e-6, 5.472_146_331_708_093e-7, -1.652_283_942_351_645_5e-6],
+        ],
+        [-0.000_810_413_329_377_736_4, 0.000_136_350_271_263_228_85, -0.000_837_380_461_529_627_8],
+        1e-3,
+    );
+    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
+}
+
+/// Where on the side, for a torque as near to its normals.
+#[test]
+fn far_along_the_side_of_a_cone() {
+    let axis = Vector3::new(0.918_932_561_269_947_9, 0.184_948_379_348_249_56, -0.348_363_380_415_205_76);
+    let count = judged(
+        Asked::Soft,
+        Cone::new(Vector3::zeros(), axis, 0.199_221_234_947_965_23).unwrap(),
+        [
+            [3_777.891_452_107_373_f64, 769.837_757_945_351_5, 596.551_652_946_510_6],
+            [-328_503.850_947_853_8, 2_491_234.683_879_466_7, -1_102_914.613_490_806_7],
+        ],
+        [0.007_946_542_059_666_283, 4.455_478_179_919_371_6e-5, -0.002_266_243_660_202_862_7],
+        1e-3,
+    );
+    assert_eq!((count.unsure, count.none), (0, 0), "{count}");
+}
+
+/// On the side of a frustum that is a whole cone, blunt, and with its tip elsewhere than the origin.
+#[test]
+fn on_the_side_of_a_pointed_frustum() {
+    let base = Vector3::new(-1.371_151_021_484_341_4, 4.862_892_264_269_302, 3.201_492_185_631_757_5);
+    let count = judged(
+        Asked::Soft,
+        Frustum::new(base, Vector3::z(), 3.509_270_938_519_971, 0.0, 1.282_302_156_338_404_5).unwrap(),
+        [
+            [-1.960_702_483_413_843_6e-7, -2.555_515_035_091_498_4e-7, -9.064_566_506_216_464e-8],
+            [-0.000_171_240_963_503_099_05, 0.004_019_136_481_755_459, -0.011_010_654_859_008_337],
+        ],
+        [-1.362_800_364_042_643_8, 4.667_651_928_683_183, 4.412_387_488_143_836],
+        1.0,
+    );
+    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
