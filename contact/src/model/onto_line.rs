@@ -1,6 +1,6 @@
 //! What rounding did to a contact that the force meets at a flat angle, undone.
 
-use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
+use fingertip_surfaces::numeric::mixed_precision::{is_asked_again, is_refined_in_double};
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::{largest, wide};
 use fingertip_surfaces::{ActiveSurface, Shortcuts};
@@ -69,7 +69,8 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
         return found;
     }
     let scaled = scaled(wrench);
-    if incidence * incidence < T::literal(1024.0) * T::EPSILON
+    if is_refined_in_double::<T>()
+        && incidence * incidence < T::literal(1024.0) * T::EPSILON
         && let Some(found) = through_chord(&scaled, surface, &point)
     {
         return found;
@@ -127,7 +128,8 @@ const ROUNDS: usize = 3;
 /// Where the line of action enters near a point at which it is a tangent but for rounding: the half chord `t` of
 /// `e + (n·d) t + κ t²/2 = 0` from a point of the line, along its direction `d`. The height `e` over the surface has
 /// twice the digits, with which the point is off the line, too; the curvature `κ` comes from a difference of normals.
-/// `None` where the line misses, or where the surface is not so.
+/// `None` where the line misses, or where the surface is not so. Single precision without the feature `mixed-precision`
+/// does without it, for the smallest programs.
 #[cold]
 #[inline(never)]
 fn through_chord<T: Real, S: ActiveSurface<T>>(
@@ -187,7 +189,11 @@ pub(super) fn by_more_digits<T: Real, S: ActiveSurface<T>>(
     surface: &S,
     near: &Vector3<T>,
 ) -> Option<(Vector3<T>, Vector3<T>)> {
-    in_double(wrench, surface, near).or_else(|| through_chord(&scaled(wrench), surface, near))
+    let by_chord = || {
+        let asked = is_refined_in_double::<T>();
+        if asked { through_chord(&scaled(wrench), surface, near) } else { None }
+    };
+    in_double(wrench, surface, near).or_else(by_chord)
 }
 
 /// Kept out of line, as it is asked often for few samples.

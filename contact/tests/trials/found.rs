@@ -102,3 +102,37 @@ fn on_the_side_of_a_pointed_frustum() {
     );
     assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
+
+/// A line that single precision takes for a tangent of the side.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_line_that_grazes_the_side_of_a_capsule() {
+    let origin = Vector3::new(0.046_054_266_f32, 0.049_467_735, -0.021_025_078);
+    let count = judged(
+        Asked::Point,
+        Capsule::new(origin, Vector3::z(), 0.028_168_712, 0.011_191_642).unwrap(),
+        [[6.019_013e-8, -7.895_908e-8, -2.528_550_9e-8], [-3.142_969_9e-9, 6.177_327_5e-10, -9.410_584e-9]],
+        [0.068_437_788_773_409_28, 0.066_569_026_723_800_66, -0.018_487_274_186_617_185],
+        0.03,
+    );
+    assert_eq!((count.none, count.unjudged), (0, 0), "{count}");
+}
+
+/// One along the axis, which rounding lets enter by the cap.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_line_along_the_side_of_a_capsule() {
+    let origin = Vector3::new(1.163_328_3_f32, -4.117_909_4, -2.469_259_7);
+    let axis = Vector3::new(0.398_461_13, -0.855_951, 0.329_509_62);
+    let count = judged(
+        Asked::Point,
+        Capsule::new(origin, axis, 21.541_548, 40.427_578).unwrap(),
+        [
+            [-0.000_583_408_2, 0.001_255_585_5, -0.000_487_287_38],
+            [-0.022_289_684, -0.005_273_67, 0.013_097_902],
+        ],
+        [5.526_339_541_255_674, 10.557_118_275_798_524, 13.655_249_520_484_02],
+        40.0,
+    );
+    assert_eq!((count.none, count.unjudged), (0, 0), "{count}");
+}
