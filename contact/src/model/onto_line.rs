@@ -202,15 +202,16 @@ fn reach<T: Real>(vector: &Vector3<T>) -> T {
     largest(vector)
 }
 
-/// Kept out of line, too.
+/// Kept out of line, as it is asked often for few samples: where one surface is compiled only, it would be copied to
+/// every place that asks.
 #[inline(never)]
-fn normal_at<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> Vector3<T> {
+pub(crate) fn normal_at<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> Vector3<T> {
     surface.normal(point)
 }
 
 /// Kept out of line, too.
 #[inline(never)]
-fn outside_by<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> T {
+pub(crate) fn outside_by<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> T {
     surface.shortcuts().surface_residual(point)
 }
 

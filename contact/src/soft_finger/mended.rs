@@ -1,13 +1,13 @@
 //! What rounding did to a soft contact that the force meets at a flat angle, undone.
 
+use fingertip_surfaces::ActiveSurface;
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::{larger, largest, tangents};
-use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::SoftContact;
-use crate::model::{flat, torque_left};
+use crate::model::{flat, normal_at, outside_by, torque_left};
 
 /// The solution of the soft-finger equations next to a contact that is off by rounding errors.
 ///
@@ -29,19 +29,7 @@ pub(crate) fn mended<T: Real, S: ActiveSurface<T>>(
     surface: &S,
     contact: &SoftContact<T>,
 ) -> SoftContact<T> {
-    mended_on(wrench, &|point| normal_at(surface, point), &|point| residual_at(surface, point), contact)
-}
-
-/// Kept out of line, as it is asked often for few samples: where one surface is compiled only, it would be copied to
-/// every place that asks.
-#[inline(never)]
-fn normal_at<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> Vector3<T> {
-    surface.normal(point)
-}
-
-#[inline(never)]
-fn residual_at<T: Real, S: ActiveSurface<T>>(surface: &S, point: &Vector3<T>) -> T {
-    surface.shortcuts().surface_residual(point)
+    mended_on(wrench, &|point| normal_at(surface, point), &|point| outside_by(surface, point), contact)
 }
 
 /// The same on a facet.
