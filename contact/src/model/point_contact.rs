@@ -321,7 +321,7 @@ impl<T: Real> PointContact<T> {
         }
         // A line that is tangent within rounding neither presses nor pulls, but touches.
         if let (Some(crossing), true) = (seen.tangent, self.least_incidence <= T::zero()) {
-            return Some(Ok(Place::at(crossing.point, crossing.normal)));
+            return Some(Ok(entered(wrench, surface, (crossing.point, crossing.normal), T::zero())));
         }
         seen.reason().map(Err)
     }

@@ -1,7 +1,7 @@
 //! Trials that were once wrong or lost among a million, each judged as there.
 
 use fingertip_contact::SoftFingerSurface;
-use fingertip_surfaces::{Capsule, Cone, Frustum, Torus};
+use fingertip_surfaces::{Capsule, Cone, Cylinder, Frustum, Torus};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -133,6 +133,25 @@ fn a_line_along_the_side_of_a_capsule() {
         ],
         [5.526_339_541_255_674, 10.557_118_275_798_524, 13.655_249_520_484_02],
         40.0,
+    );
+    assert_eq!((count.none, count.unjudged), (0, 0), "{count}");
+}
+
+/// One that single precision takes for a tangent of a cylinder.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_line_that_grazes_a_cylinder() {
+    let centre = Vector3::new(0.000_251_553_8_f32, 0.000_255_221, 0.000_126_410_96);
+    let axis = Vector3::new(0.744_083_3, -0.099_905_33, -0.660_574_73);
+    let count = judged(
+        Asked::Point,
+        Cylinder::new(centre, axis, 0.000_132_124_48).unwrap(),
+        [
+            [-1.087_423e-9, 3.336_495_3e-9, -1.645_575e-9],
+            [-1.419_600_8e-12, 1.582_627_5e-13, 1.258_982_1e-12],
+        ],
+        [0.000_269_875_119_562_531_2, 0.000_329_719_893_741_654_4, 0.000_262_857_236_814_434_5],
+        1e-4,
     );
     assert_eq!((count.none, count.unjudged), (0, 0), "{count}");
 }
