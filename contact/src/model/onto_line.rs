@@ -65,17 +65,8 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
     (point, normal): (Vector3<T>, Vector3<T>),
     incidence: T,
 ) -> (Vector3<T>, Vector3<T>) {
-    if let Some(found) = in_double(wrench, surface, &point) {
-        return found;
-    }
-    let scaled = scaled(wrench);
-    if is_refined_in_double::<T>()
-        && incidence * incidence < T::literal(1024.0) * T::EPSILON
-        && let Some(found) = through_chord(&scaled, surface, &point)
-    {
-        return found;
-    }
-    mended(&scaled, surface, (point, normal), incidence)
+    by_more_digits(wrench, surface, &point, incidence)
+        .unwrap_or_else(|| mended(&scaled(wrench), surface, (point, normal), incidence))
 }
 
 /// Force and torque times a factor that makes the force 1 or more.
@@ -183,17 +174,21 @@ fn in_double<T: Real, S: ActiveSurface<T>>(
     (normal.dot(&f) < 0.0).then(|| (point.map(T::literal), normal.map(T::literal)))
 }
 
-/// Where the line of action enters near a point where it is a tangent for all that the digits of the type say.
+/// Where the line of action enters near a point, in double precision where that is told; if not, by the chord where the
+/// line is all but a tangent, so that the steps do not lead there.
+#[inline(always)]
 pub(super) fn by_more_digits<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     near: &Vector3<T>,
+    incidence: T,
 ) -> Option<(Vector3<T>, Vector3<T>)> {
-    let by_chord = || {
-        let asked = is_refined_in_double::<T>();
-        if asked { through_chord(&scaled(wrench), surface, near) } else { None }
-    };
-    in_double(wrench, surface, near).or_else(by_chord)
+    let found = in_double(wrench, surface, near);
+    let grazes = incidence * incidence < T::literal(1024.0) * T::EPSILON;
+    if found.is_some() || !grazes || !is_refined_in_double::<T>() {
+        return found;
+    }
+    through_chord(&scaled(wrench), surface, near)
 }
 
 /// Kept out of line, as it is asked often for few samples.

@@ -357,7 +357,7 @@ impl<T: Real> PointContact<T> {
         let hair = T::EPSILON * T::literal(64.0) * largest(&point);
         if active
             && gap <= hair
-            && let Some((point, normal)) = by_more_digits(wrench, surface, &point)
+            && let Some((point, normal)) = by_more_digits(wrench, surface, &point, T::zero())
             && -line.direction.dot(&normal) >= self.least_incidence
         {
             return Ok(Place::at(point, normal));

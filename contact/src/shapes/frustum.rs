@@ -30,11 +30,10 @@ pub(super) fn on_frustum<T: Real>(
 ) -> Option<SoftContact<T>> {
     let (base, axis, height) = (solid.base_centre(), solid.axis(), solid.height());
     let force = wrench.force();
-    if let Some(contact) = on_side(solid, wrench) {
-        let above = (contact.point - base).dot(&axis);
-        if above >= T::zero() && above <= height {
-            return Some(contact);
-        }
+    if let Some(contact) = on_side(solid, wrench)
+        && is_between_ends(solid, &contact.point)
+    {
+        return Some(contact);
     }
     let (sine, cosine) = (solid.taper() * solid.side_cosine(), solid.side_cosine());
     for (outward, origin, radius) in
@@ -70,6 +69,12 @@ pub(super) fn on_frustum<T: Real>(
         }
     }
     None
+}
+
+/// Whether a place of the unbounded side belongs to the solid.
+fn is_between_ends<T: Real>(solid: &Frustum<T>, point: &Vector3<T>) -> bool {
+    let above = (point - solid.base_centre()).dot(&solid.axis());
+    above >= T::zero() && above <= solid.height()
 }
 
 /// On the side of a cylinder, unbounded.
@@ -168,6 +173,21 @@ fn frustum_in_double<T: Real>(
     shape.in_double().map(|double| sole(on_frustum(&double, wrench, on_side), wrench))
 }
 
+/// The same where rounding decides between the side and a tip, or where on the side the contact is.
+fn surely_on_frustum<T: Real>(shape: &Frustum<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+    let found = on_frustum_finely(shape, wrench, on_side, |wrench| frustum_in_double(shape, wrench));
+    let base = shape.base_centre();
+    let tip = || {
+        if shape.top_radius().is_zero() {
+            Some(base + shape.axis() * shape.height())
+        } else {
+            shape.base_radius().is_zero().then_some(base)
+        }
+    };
+    let side = || (side_of_frustum(shape, &base), tip());
+    surely_on_cone(wrench, shape, side, |point| is_between_ends(shape, point), found)
+}
+
 fn capped_in_double<T: Real>(
     shape: &CappedCylinder<T>,
     wrench: &Wrench<f64>,
@@ -197,24 +217,6 @@ fn solid_patch<T: Real>(
     } else {
         side_of_frustum(solid, middle)
     }
-}
-
-/// The same where rounding decides between the side and a tip, or where on the side the contact is.
-fn surely_on_frustum<T: Real>(shape: &Frustum<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
-    let found = on_frustum_finely(shape, wrench, on_side, |wrench| frustum_in_double(shape, wrench));
-    let (base, axis, height) = (shape.base_centre(), shape.axis(), shape.height());
-    let tip = || {
-        if shape.top_radius().is_zero() {
-            Some(base + axis * height)
-        } else {
-            shape.base_radius().is_zero().then_some(base)
-        }
-    };
-    let holds = |point: &Vector3<T>| {
-        let above = (point - base).dot(&axis);
-        above >= T::zero() && above <= height
-    };
-    surely_on_cone(wrench, shape, || (side_of_frustum(shape, &base), tip()), holds, found)
 }
 
 /// The side, unbounded, its base around this point of the axis.
