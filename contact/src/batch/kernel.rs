@@ -10,7 +10,7 @@ use fingertip_wrench::Real;
 use super::Lines;
 
 /// A surface that many lines of action can be met with at once.
-pub trait Kernel<T: Real> {
+pub(crate) trait Kernel<T: Real> {
     /// Whether it gains from not expecting all lines.
     const VERSIONS: Versions;
 
@@ -26,7 +26,7 @@ pub trait Kernel<T: Real> {
 
 /// A force, what it turns about the origin, its square and the reciprocal of that.
 #[derive(Clone, Copy)]
-pub struct Push<T> {
+pub(crate) struct Push<T> {
     pub(crate) force: [T; 3],
     pub(crate) torque: [T; 3],
     pub(crate) squared: T,
@@ -63,7 +63,7 @@ impl<T: Real> Push<T> {
 }
 
 /// What a kernel says of a line.
-pub struct Answer<T: Real> {
+pub(crate) struct Answer<T: Real> {
     pub(crate) point: [T; 3],
     pub(crate) normal: [T; 3],
     pub(crate) gap: T,
@@ -97,7 +97,7 @@ impl<T: Real> Answer<T> {
 
 /// Whether it gains from not expecting all.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Versions {
+pub(crate) enum Versions {
     One,
     Two,
 }

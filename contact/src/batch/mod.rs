@@ -18,8 +18,12 @@
 //! # Ok::<(), fingertip_surfaces::BadShape>(())
 //! ```
 
+pub(crate) mod each;
 pub(crate) mod kernel;
-mod sweep;
+mod soft;
+pub(crate) mod sweep;
+
+pub use soft::SoftContacts;
 
 use fingertip_surfaces::ForceParts;
 use fingertip_wrench::Real;

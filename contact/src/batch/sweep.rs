@@ -4,14 +4,14 @@ use fingertip_surfaces::ForceParts;
 use fingertip_wrench::Real;
 
 use super::kernel::{Answer, Kernel, Push, Versions, parts_at, pick};
-use super::{BatchSurface, Contacts, Entered, Lines, Wrenches};
+use super::{Contacts, Entered, Lines, Wrenches};
 
 /// How many wrenches are taken together.
 const BLOCK: usize = 64;
 
 /// Runs a kernel over all wrenches.
 #[inline(always)]
-fn run<T: Real, K: Kernel<T>>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>, kernel: &K) {
+pub(crate) fn run<T: Real, K: Kernel<T>>(wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>, kernel: &K) {
     let Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap } = contacts;
     let [fx, fy, fz] = wrenches.force;
     let [tx, ty, tz] = wrenches.torque;
@@ -70,7 +70,7 @@ fn sweep<T: Real>(
     let (nx, ny, nz) = (&mut nx[..count], &mut ny[..count], &mut nz[..count]);
     let mut all = true;
     for k in 0..count {
-        let entered = kernel.enter([fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], lines, at_origin);
+        let entered = enter(kernel, [fx[k], fy[k], fz[k]], [tx[k], ty[k], tz[k]], lines, at_origin);
         all &= entered.certain;
         [px[k], py[k], pz[k]] = entered.point;
         [nx[k], ny[k], nz[k]] = entered.normal;
@@ -79,33 +79,62 @@ fn sweep<T: Real>(
     all
 }
 
-impl<T: Real, K: Kernel<T>> BatchSurface<T> for K {
-    #[inline(always)]
-    fn contacts_in_line(&self, wrenches: Wrenches<'_, T>, contacts: Contacts<'_, T>) {
-        run(wrenches, contacts, self);
+/// Where one line enters, as a kernel says.
+#[inline(always)]
+pub(crate) fn enter<T: Real, K: Kernel<T>>(
+    kernel: &K,
+    force: [T; 3],
+    torque: [T; 3],
+    lines: Lines,
+    at_origin: bool,
+) -> Entered<T> {
+    let (push, in_range) = Push::new(force, torque, at_origin);
+    let answer = kernel.answer(push, lines);
+    let parts = answer.parts.unwrap_or_else(
+        #[inline(always)]
+        || parts_at(force, answer.normal),
+    );
+    if lines == Lines::Meeting {
+        let Answer { point, normal, certain, .. } = answer;
+        return Entered { point, normal, parts, gap: T::zero(), certain: certain & in_range };
     }
-
-    #[inline(always)]
-    fn is_at_origin(&self) -> bool {
-        self.centred()
-    }
-
-    #[inline(always)]
-    fn enter(&self, force: [T; 3], torque: [T; 3], lines: Lines, at_origin: bool) -> Entered<T> {
-        let (push, in_range) = Push::new(force, torque, at_origin);
-        let answer = self.answer(push, lines);
-        let parts = answer.parts.unwrap_or_else(
-            #[inline(always)]
-            || parts_at(force, answer.normal),
-        );
-        if lines == Lines::Meeting {
-            let Answer { point, normal, certain, .. } = answer;
-            return Entered { point, normal, parts, gap: T::zero(), certain: certain & in_range };
-        }
-        let certain = in_range & answer.is_finite();
-        let keep = |x: T| pick(certain, x, T::zero());
-        let parts = ForceParts { normal: keep(parts.normal), tangential: keep(parts.tangential) };
-        let gap = pick(certain, answer.gap, T::GREATEST);
-        Entered { point: answer.point.map(keep), normal: answer.normal.map(keep), parts, gap, certain }
-    }
+    let certain = in_range & answer.is_finite();
+    let keep = |x: T| pick(certain, x, T::zero());
+    let parts = ForceParts { normal: keep(parts.normal), tangential: keep(parts.tangential) };
+    let gap = pick(certain, answer.gap, T::GREATEST);
+    Entered { point: answer.point.map(keep), normal: answer.normal.map(keep), parts, gap, certain }
 }
+
+/// Gives a shape that has a kernel its columns.
+macro_rules! swept {
+    ($shape:ident) => {
+        impl<T: fingertip_wrench::Real> $crate::batch::BatchSurface<T> for $shape<T> {
+            #[inline(always)]
+            fn contacts_in_line(
+                &self,
+                wrenches: $crate::batch::Wrenches<'_, T>,
+                contacts: $crate::batch::Contacts<'_, T>,
+            ) {
+                $crate::batch::sweep::run(wrenches, contacts, self);
+            }
+
+            #[inline(always)]
+            fn is_at_origin(&self) -> bool {
+                $crate::batch::kernel::Kernel::<T>::centred(self)
+            }
+
+            #[inline(always)]
+            fn enter(
+                &self,
+                force: [T; 3],
+                torque: [T; 3],
+                lines: $crate::batch::Lines,
+                at_origin: bool,
+            ) -> $crate::batch::Entered<T> {
+                $crate::batch::sweep::enter(self, force, torque, lines, at_origin)
+            }
+        }
+    };
+}
+
+pub(crate) use swept;

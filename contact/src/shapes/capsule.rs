@@ -6,7 +6,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use super::cylinder::{on_round_side, steeply_on_round_side};
-use super::sphere::{on_sphere, steeply_on_sphere};
+use super::sphere::{on_sphere, steeply_on_ball};
 #[cfg(feature = "batch")]
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
@@ -94,8 +94,7 @@ fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Optio
         // Along the axis.
         None => -axis * push.force().dot(&axis).signum(),
     };
-    let ball = Sphere::new(centre + end * half, radius).ok()?;
-    let contact = steeply_on_sphere(&ball, push)?;
+    let contact = steeply_on_ball(&(centre + end * half), radius, T::one() / radius, push)?;
     let lever = radius * T::literal(0.5);
     (contact.normal.dot(&end) >= T::zero() && is_steady(push, &contact, lever)).then_some(contact)
 }
@@ -140,6 +139,9 @@ fn of_capsule<T: Real>(shape: &Capsule<T>, point: &Vector3<T>) -> [GeometrySensi
     };
     [longer, GeometrySensitivity::offset()]
 }
+
+#[cfg(feature = "batch")]
+crate::batch::sweep::swept!(Capsule);
 
 #[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Capsule<T> {

@@ -4,15 +4,15 @@ use fingertip_surfaces::is_inside_along;
 use fingertip_surfaces::numeric::fine_pose::FinePose;
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::moved::{direction_inside, direction_outside, point_inside, point_outside};
-use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::{
     ActiveSurface, Compound, ForceLine, Offset, Posed, Region, SignedDistance, SmoothSurface, Trimmed,
 };
 use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::is_pure_force;
 use crate::soft_finger::double::{in_type, narrow, widened};
+use crate::soft_finger::placed::placed;
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
 /// The square of the least cosine of incidence at which a posed shape in a narrower type takes the short way.
@@ -52,7 +52,9 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         mut visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
         if !is_asked_again::<T>() {
-            return moved(self, wrench, last, visit);
+            return moved(self, wrench, last, |contact| {
+                visit(self.with_more_digits(wrench, None, Ok(contact)).unwrap_or(contact));
+            });
         }
         let ended = match self.soft_contact_in_double(&widened(wrench)) {
             Some(Ok(contact)) => {
@@ -109,10 +111,20 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         let pose = self.sensor_from_shape();
         let inside = pose.rotation().tr_mul(&(point - pose.origin()));
-        let Patch { surface, pose: None } = self.inner().patch(&inside)? else { return None };
-        let rotation = Rotation3::from_matrix_unchecked(pose.rotation().map(Real::to_f64));
-        let placed = RigidTransform::from_parts(rotation, wide(&pose.origin()));
-        Some(Patch { surface, pose: Some(placed) })
+        placed(self.inner().patch(&inside)?, pose)
+    }
+
+    /// Of the shape in its pose. A pose of a pose keeps what was found.
+    fn with_more_digits(
+        &self,
+        wrench: &Wrench<T>,
+        pose: Option<&RigidTransform<T>>,
+        found: Result<SoftContact<T>, Search<T>>,
+    ) -> Result<SoftContact<T>, Search<T>> {
+        match pose {
+            None => self.inner().with_more_digits(wrench, Some(self.sensor_from_shape()), found),
+            Some(_) => found,
+        }
     }
 
     /// That of the shape, wherever it is. (How well its place is known is a matter of
@@ -151,6 +163,19 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
             active: contact.active && self.region().includes(&contact.point.map(T::literal)),
             ..contact
         }))
+    }
+
+    fn with_more_digits(
+        &self,
+        wrench: &Wrench<T>,
+        pose: Option<&RigidTransform<T>>,
+        found: Result<SoftContact<T>, Search<T>>,
+    ) -> Result<SoftContact<T>, Search<T>> {
+        let again = self.inner().with_more_digits(wrench, pose, found);
+        again.map(|contact| {
+            let place = pose.map_or(contact.point, |pose| point_inside(pose, &contact.point));
+            SoftContact { active: contact.active && self.region().includes(&place), ..contact }
+        })
     }
 
     #[inline]

@@ -1,11 +1,12 @@
 //! The cone.
 
 use fingertip_surfaces::numeric::mixed_precision::is_refined_in_double;
+use fingertip_surfaces::numeric::moved::point_inside;
 use fingertip_surfaces::numeric::vectors::tangents;
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::numeric::vectors::{length, unit_or};
 use fingertip_surfaces::{Cone, Extent, ForceLine, LocalSurface, SmoothSurface, rare_crossings};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
 use super::slanted_side::SlantedSide;
@@ -216,9 +217,19 @@ fn on_cone_finely<T: Real>(cone: &Cone<T>, wrench: &Wrench<T>) -> Result<SoftCon
         let radius = length(&(contact.point - cone.apex())) * cone.half_angle_sin_cos().0;
         is_steady(wrench, radius)(contact)
     };
-    let found =
-        finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| cone_in_double(cone, wrench));
-    surely_on_cone(wrench, cone, || (side_of_cone(cone), Some(cone.apex())), |_| true, found)
+    finely(on_side_or_tip(cone, wrench), is_steady, wrench, |wrench| cone_in_double(cone, wrench))
+}
+
+/// The same where rounding decides between the side and the tip, or where on the side the contact is.
+fn surely<T: Real>(
+    cone: &Cone<T>,
+    wrench: &Wrench<T>,
+    pose: Option<&RigidTransform<T>>,
+    found: Result<SoftContact<T>, Search<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let side = || (side_of_cone(cone), Some(cone.apex()));
+    let found = surely_on_cone(wrench, cone, pose, side, |_| true, found);
+    found.map(|contact| if_active(cone, pose, contact))
 }
 
 fn cone_in_double<T: Real>(
@@ -226,7 +237,7 @@ fn cone_in_double<T: Real>(
     wrench: &Wrench<f64>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
     let double = cone.in_double()?;
-    Some(on_side_or_tip(&double, wrench).map(|contact| if_active(&double, contact)))
+    Some(on_side_or_tip(&double, wrench).map(|contact| if_active(&double, None, contact)))
 }
 
 fn side_of_cone<T: Real>(cone: &Cone<T>) -> LocalSurface {
@@ -238,9 +249,14 @@ fn side_of_cone<T: Real>(cone: &Cone<T>) -> LocalSurface {
     }
 }
 
-/// With what the depth of the cone says.
-fn if_active<T: Real>(cone: &Cone<T>, contact: SoftContact<T>) -> SoftContact<T> {
-    let depth = (contact.point - cone.apex()).dot(&cone.axis());
+/// With what the depth of the cone says, in this pose.
+fn if_active<T: Real>(
+    cone: &Cone<T>,
+    pose: Option<&RigidTransform<T>>,
+    contact: SoftContact<T>,
+) -> SoftContact<T> {
+    let place = pose.map_or(contact.point, |pose| point_inside(pose, &contact.point));
+    let depth = (place - cone.apex()).dot(&cone.axis());
     SoftContact { active: cone.depth().is_none_or(|most| depth <= most), ..contact }
 }
 
@@ -248,13 +264,17 @@ soft_finger!(
     /// The side, or the tip, on which any normal will do that is steeper than the side's.
     Cone,
     |shape, wrench, _, visit| told(
-        on_cone_finely(shape, wrench).map(|contact| if_active(shape, contact)),
+        surely(shape, wrench, None, on_cone_finely(shape, wrench)),
         visit
     ),
     sole | shape,
     push | steeply_on_cone(shape, push),
     double | shape,
     wrench | cone_in_double(shape, wrench),
+    surely | shape,
+    wrench,
+    pose,
+    found | surely(shape, wrench, pose, found),
     patch | shape,
     _ | Some(side_of_cone(shape)),
     sizes | shape, size, point | of_cone(shape, point).get(size).copied()
@@ -273,3 +293,6 @@ fn of_cone<T: Real>(shape: &Cone<T>, point: &Vector3<T>) -> [GeometrySensitivity
     let turned = -(outward * sine + shape.axis() * cosine);
     [GeometrySensitivity::of_level(value, &turned, &level.gradient, &level.hessian)]
 }
+
+#[cfg(feature = "batch")]
+crate::batch::each::entering!(Cone);

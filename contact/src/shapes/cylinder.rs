@@ -185,6 +185,9 @@ soft_finger!(
 );
 
 #[cfg(feature = "batch")]
+crate::batch::sweep::swept!(Cylinder);
+
+#[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Cylinder<T> {
     const VERSIONS: Versions = Versions::Two;
 

@@ -1,7 +1,7 @@
 //! A surface chosen at run time.
 
 use fingertip_surfaces::{DynSurface, ForceLine, each_surface};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface};
@@ -28,6 +28,15 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
 
     fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
         each_surface!(self, shape => shape.soft_contact_in_double(wrench))
+    }
+
+    fn with_more_digits(
+        &self,
+        wrench: &Wrench<T>,
+        pose: Option<&RigidTransform<T>>,
+        found: Result<SoftContact<T>, Search<T>>,
+    ) -> Result<SoftContact<T>, Search<T>> {
+        each_surface!(self, shape => shape.with_more_digits(wrench, pose, found))
     }
 
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {

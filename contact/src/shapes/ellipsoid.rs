@@ -3,8 +3,9 @@
 #[cfg(feature = "batch")]
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
-use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, cross, dot, scale, times};
+use crate::batch::kernel::{self, Answer, Chord, Kernel, Push, Versions, add, cross, scale, times};
 use crate::uncertainty::geometry::stretched;
+use fingertip_surfaces::numeric::twofold::{Twofold, dot, exactly};
 use fingertip_surfaces::numeric::vectors::{larger, largest, taming_factor};
 use fingertip_surfaces::{Ellipsoid, ForceLine, SmoothSurface};
 use fingertip_wrench::{Real, Wrench};
@@ -36,13 +37,14 @@ pub(super) fn on_ellipsoid<T: Real>(
     let f = wrench.force().component_mul(&b);
     let m = wrench.torque().component_mul(&(across(&b) * unit));
     let scale = taming_factor(larger(largest(&f), largest(&m)));
-    let (f, m) = (f * scale, m * scale);
-    // As on the sphere: what is exactly zero before stretching shall be so after it.
-    let power = (wrench.force() * scale).dot(&(wrench.torque() * scale)) * (b.x * b.y * b.z * unit);
-    let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power);
-    if let Some(pair) = solved.grazing(&f, &m) {
-        return Err(pair.map(|point| point.component_mul(&semi_axes)));
-    }
+    let [bx, by, bz] = <[T; 3]>::from(semi_axes * unit).map(|a| Twofold::new(T::one()).over(a));
+    let (force, torque) = (exactly(&(wrench.force() * scale)), exactly(&(wrench.torque() * unit * scale)));
+    let (xy, power) = (bx.times(by), dot(force, torque));
+    let ([fx, fy, fz], [mx, my, mz]) = (force, torque);
+    let f = [fx.times(bx), fy.times(by), fz.times(bz)];
+    let m = [mx.times(by.times(bz)), my.times(bz.times(bx)), mz.times(xy)];
+    let solved = OnUnitSphere::finely(f, m, power.times(xy.times(bz)))
+        .map_err(|pair| pair.map(|point| point.component_mul(&semi_axes)))?;
     let point = solved.point();
     let gradient = point.component_mul(&b);
     let steepness = gradient.norm_squared().root();
@@ -101,6 +103,9 @@ soft_finger!(
 );
 
 #[cfg(feature = "batch")]
+crate::batch::sweep::swept!(Ellipsoid);
+
+#[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Ellipsoid<T> {
     const VERSIONS: Versions = Versions::Two;
 
@@ -113,12 +118,12 @@ impl<T: Real> Kernel<T> for Ellipsoid<T> {
         let curvatures = semi_axes.map(|a| T::one() / a);
         let start = times(scale(cross(push.force, push.torque), push.inverse), curvatures);
         let direction = times(push.force, curvatures);
-        let inverse = T::one() / dot(direction, direction);
-        let foot = add(start, direction, -dot(start, direction) * inverse);
-        let chord = Chord::new(dot(foot, foot), inverse, lines);
+        let inverse = T::one() / kernel::dot(direction, direction);
+        let foot = add(start, direction, -kernel::dot(start, direction) * inverse);
+        let chord = Chord::new(kernel::dot(foot, foot), inverse, lines);
         let scaled = add(scale(foot, chord.shrink), direction, -chord.back);
         let gradient = times(scaled, curvatures);
-        let flatness = T::one() / dot(gradient, gradient).root();
+        let flatness = T::one() / kernel::dot(gradient, gradient).root();
         let (point, normal) = (times(scaled, semi_axes), scale(gradient, flatness));
         Answer::of(point, normal, chord.outside * flatness, chord.meets)
     }

@@ -1,6 +1,11 @@
 //! The elliptic cylinder, with its ends.
 
+#[cfg(feature = "batch")]
+use core::hint::select_unpredictable;
+
 use crate::uncertainty::geometry::stretched;
+#[cfg(feature = "batch")]
+use fingertip_surfaces::Entry;
 use fingertip_surfaces::numeric::vectors::smaller;
 use fingertip_surfaces::{
     ActiveSurface, CylinderEnds, EllipticCylinder, ForceLine, LocalSurface, SmoothSurface,
@@ -84,19 +89,14 @@ fn steeply_on_elliptic_cylinder<T: Real>(
     push: &ForceLine<T>,
 ) -> Option<SoftContact<T>> {
     let side = steeply_on_side(shape, push);
-    let half = match shape.ends() {
-        CylinderEnds::Unbounded => return side,
-        CylinderEnds::Open(half) => {
-            return side.map(|contact| SoftContact { active: contact.point.z.abs() <= half, ..contact });
-        }
-        CylinderEnds::Capped(half) => half,
-    };
+    let (half, is_capped) = shape.half_length();
     let [a, b] = shape.semi_axes();
     let hair = (half + a + b) * (T::literal(64.0) * T::EPSILON);
+    let is_on_side = |contact: &SoftContact<T>| !is_capped | (contact.point.z.abs() <= half - hair);
     if let Some(contact) = side
-        && contact.point.z.abs() <= half - hair
+        && is_on_side(&contact)
     {
-        return Some(contact);
+        return Some(SoftContact { active: contact.point.z.abs() <= half, ..contact });
     }
     let (force, torque) = (push.force(), push.torque());
     let normal = -Vector3::z() * force.z.signum();
@@ -108,7 +108,8 @@ fn steeply_on_elliptic_cylinder<T: Real>(
     let (x, y) = (away.x * ka, away.y * kb);
     let steep = is_steep(push, force.z, spin_torque * (ka + kb));
     let inside = x * x + y * y <= inner * inner.max(T::zero());
-    (steep & inside).then(|| SoftContact { point: away + normal * half, normal, spin_torque, active: true })
+    let found = is_capped & steep & inside;
+    found.then(|| SoftContact { point: away + normal * half, normal, spin_torque, active: true })
 }
 
 /// On the side, unbounded, for a force that presses at no flat angle and a spin torque that does not rule.
@@ -129,9 +130,7 @@ fn steeply_on_side<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) ->
     let root_squared = squared - turning * turning;
     // Not where the torque hides the force, and the root loses digits. False for a NaN, too.
     let wide = root_squared >= squared * T::literal(0.06);
-    if !(wide & (squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST)) {
-        return None;
-    }
+    let is_told = wide & (squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST);
     let (root, inverse) = (root_squared.root(), T::one() / squared);
     let (x, y) = ((fy * turning - fx * root) * inverse, (-fx * turning - fy * root) * inverse);
     let (gx, gy) = (x * ka, y * kb);
@@ -147,12 +146,10 @@ fn steeply_on_side<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) ->
     let twist = spin_torque * (bend * bend * support);
     let is_steady = is_steep(push, pressing, twist);
     let point = Vector3::new(x * a, y * b, height);
-    (is_steady & (pressing > T::zero()) & height.is_number()).then(|| SoftContact {
-        point,
-        normal: Vector3::new(nx, ny, T::zero()),
-        spin_torque,
-        active: true,
-    })
+    let normal = Vector3::new(nx, ny, T::zero());
+    // One choice at the end, so that a loop over many is one without a branch.
+    let is_told = is_told & is_steady & (pressing > T::zero()) & height.is_number();
+    is_told.then_some(SoftContact { point, normal, spin_torque, active: true })
 }
 
 /// In double precision if the type is narrower and rounding decides between the side and an end.
@@ -203,4 +200,46 @@ fn of_elliptic_cylinder<T: Real>(
         return [GeometrySensitivity::none(); 2];
     }
     [0, 1].map(|i| stretched(&shape.level(point), point, i, shape.semi_axes()[i]))
+}
+
+#[cfg(feature = "batch")]
+crate::batch::each::entering!(EllipticCylinder, |cylinder, push| Some(entry_of_elliptic(cylinder, push)));
+
+/// Where the line of a force enters: through the flat end that it comes from, within its outline, or else through the side.
+///
+/// Over the semi-axes the side is round: with the foot `s` and the force `f` so scaled, and what is across the axis of both,
+/// `|f|² t² + 2 s·f t + |s|² = 1`.
+#[cfg(feature = "batch")]
+#[inline(always)]
+fn entry_of_elliptic<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) -> Entry<T> {
+    let ([ka, kb], f) = (shape.curvatures(), push.force());
+    let (half, is_capped) = shape.half_length();
+    let s = f.cross(&push.torque()) * (T::one() / push.squared());
+    let (fx, fy, sx, sy) = (f.x * ka, f.y * kb, s.x * ka, s.y * kb);
+    let (a, b) = (fx * fx + fy * fy, sx * fx + sy * fy);
+    // What the line is beside the axis, in radii, times the force across it: no square of a far foot is taken from another.
+    let aside = sx * fy - sy * fx;
+    let root = (a - aside * aside).root();
+    let end = half.copysign(-f.z);
+    let to_end = (end - s.z) / f.z;
+    let (x, y) = (sx + fx * to_end, sy + fy * to_end);
+    let through_end = is_capped & (x * x + y * y < T::one());
+    let along = select_unpredictable(through_end, to_end, -(b + root) / a);
+    let z = select_unpredictable(through_end, end, s.z + f.z * along);
+    let point = Vector3::new(s.x + f.x * along, s.y + f.y * along, z);
+    let (gx, gy) = ((sx + fx * along) * ka, (sy + fy * along) * kb);
+    let steepness = gx * gx + gy * gy;
+    let inverse = T::one() / steepness.root();
+    let pressing = select_unpredictable(through_end, f.z * f.z, root * root / steepness);
+    let on_side = select_unpredictable(through_end, T::zero(), inverse);
+    let on_end = select_unpredictable(through_end, T::one().copysign(end), T::zero());
+    // Beside a closed one the line may enter the side that it does not have.
+    let is_there = through_end | !is_capped | (z.abs() <= half);
+    Entry {
+        point,
+        normal: Vector3::new(gx * on_side, gy * on_side, on_end),
+        incidence_squared: select_unpredictable(is_there, pressing / push.squared(), T::zero()),
+        parts: None,
+        active: z.abs() <= half,
+    }
 }

@@ -4,7 +4,7 @@ use fingertip_surfaces::numeric::vectors::{length, wide};
 use fingertip_surfaces::{
     ActiveSurface, CappedCylinder, Cone, ForceLine, Frustum, LocalSurface, SmoothSurface,
 };
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
 use super::cone::on_cone;
@@ -174,8 +174,12 @@ fn frustum_in_double<T: Real>(
 }
 
 /// The same where rounding decides between the side and a tip, or where on the side the contact is.
-fn surely_on_frustum<T: Real>(shape: &Frustum<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
-    let found = on_frustum_finely(shape, wrench, on_side, |wrench| frustum_in_double(shape, wrench));
+fn surely_on_frustum<T: Real>(
+    shape: &Frustum<T>,
+    wrench: &Wrench<T>,
+    pose: Option<&RigidTransform<T>>,
+    found: Result<SoftContact<T>, Search<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
     let base = shape.base_centre();
     let tip = || {
         if shape.top_radius().is_zero() {
@@ -185,7 +189,7 @@ fn surely_on_frustum<T: Real>(shape: &Frustum<T>, wrench: &Wrench<T>) -> Result<
         }
     };
     let side = || (side_of_frustum(shape, &base), tip());
-    surely_on_cone(wrench, shape, side, |point| is_between_ends(shape, point), found)
+    surely_on_cone(wrench, shape, pose, side, |point| is_between_ends(shape, point), found)
 }
 
 fn capped_in_double<T: Real>(
@@ -232,11 +236,18 @@ fn side_of_frustum<T: Real>(solid: &Frustum<T>, middle: &Vector3<T>) -> LocalSur
 
 soft_finger!(
     Frustum,
-    |shape, wrench, _, visit| told(surely_on_frustum(shape, wrench), visit),
+    |shape, wrench, _, visit| {
+        let found = on_frustum_finely(shape, wrench, on_side, |wrench| frustum_in_double(shape, wrench));
+        told(surely_on_frustum(shape, wrench, None, found), visit)
+    },
     sole | shape,
     push | steeply_on_frustum(shape, push),
     double | shape,
     wrench | frustum_in_double(shape, wrench),
+    surely | shape,
+    wrench,
+    pose,
+    found | surely_on_frustum(shape, wrench, pose, found),
     patch | shape,
     point | Some(solid_patch(shape, point, &shape.base_centre(), [0.0, shape.height().to_f64()])),
     sizes | shape,
@@ -296,3 +307,9 @@ fn of_capped_cylinder<T: Real>(shape: &CappedCylinder<T>, point: &Vector3<T>) ->
         [GeometrySensitivity::offset(), GeometrySensitivity::none()]
     }
 }
+
+#[cfg(feature = "batch")]
+crate::batch::each::entering!(Frustum);
+
+#[cfg(feature = "batch")]
+crate::batch::each::entering!(CappedCylinder);

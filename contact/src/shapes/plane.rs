@@ -1,7 +1,7 @@
 //! The plane.
 
 use fingertip_surfaces::numeric::vectors::{largest, wide};
-use fingertip_surfaces::{Disk, LocalSurface, Plane, Rectangle};
+use fingertip_surfaces::{Disk, ForceLine, LocalSurface, Plane, Rectangle};
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
@@ -39,29 +39,28 @@ pub(super) fn on_plane<T: Real>(
     })
 }
 
+/// The same for a force that is tame and presses steeply, without a branch.
 #[inline(always)]
-fn plane_contact<T: Real>(
-    plane: &Plane<T>,
-    force: &Vector3<T>,
-    torque_about: impl FnOnce(&Vector3<T>) -> Vector3<T>,
-) -> Option<SoftContact<T>> {
-    let origin = plane.point();
-    on_plane(&plane.outward(), force, &torque_about(&origin))
-        .map(|contact| SoftContact { point: contact.point + origin, ..contact })
+fn steeply_on_plane<T: Real>(plane: &Plane<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    let (origin, normal, force) = (plane.point(), plane.outward(), push.force());
+    let torque = push.torque_about(&origin);
+    let pressing = -force.dot(&normal);
+    let point = torque.cross(&normal) / pressing + origin;
+    let contact = SoftContact { point, normal, spin_torque: -force.dot(&torque) / pressing, active: true };
+    let in_range = (point.x + point.y + point.z + contact.spin_torque).is_number();
+    ((pressing > T::zero()) & in_range & is_steady(push, &contact, largest(&point))).then_some(contact)
 }
 
 soft_finger!(
     Plane,
     |shape, wrench, _, visit| told(
-        plane_contact(shape, &wrench.force(), |point| wrench.torque_about(point)).ok_or(Search::Complete),
+        on_plane(&shape.outward(), &wrench.force(), &wrench.torque_about(&shape.point()))
+            .map(|contact| SoftContact { point: contact.point + shape.point(), ..contact })
+            .ok_or(Search::Complete),
         visit
     ),
     sole | shape,
-    push | plane_contact(shape, &push.force(), |point| push.torque_about(point)).filter(|contact| is_steady(
-        push,
-        contact,
-        largest(&contact.point)
-    )),
+    push | steeply_on_plane(shape, push),
     patch | shape,
     _ | Some(LocalSurface::Plane { point: wide(&shape.point()), normal: wide(&shape.outward()) }),
     sizes | _,
@@ -71,6 +70,9 @@ soft_finger!(
 
 part_of!(Disk, plane);
 part_of!(Rectangle, plane);
+
+#[cfg(feature = "batch")]
+crate::batch::sweep::swept!(Plane);
 
 #[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Plane<T> {

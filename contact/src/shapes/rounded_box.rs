@@ -1,5 +1,10 @@
 //! The rounded box.
 
+#[cfg(feature = "batch")]
+use core::hint::select_unpredictable;
+
+#[cfg(feature = "batch")]
+use fingertip_surfaces::Entry;
 use fingertip_surfaces::numeric::vectors::{larger, largest, wide};
 use fingertip_surfaces::{ForceLine, LocalSurface, RoundedBox, SmoothSurface, Sphere};
 use fingertip_wrench::{Real, Wrench};
@@ -205,4 +210,72 @@ fn of_rounded_box<T: Real>(shape: &RoundedBox<T>, point: &Vector3<T>) -> [Geomet
         of(-n.dot(&moved), -(level.hessian * moved))
     };
     [wider(0), wider(1), wider(2), of(n.dot(&sign) - T::one(), level.hessian * sign)]
+}
+
+#[cfg(feature = "batch")]
+crate::batch::each::entering!(RoundedBox, |rounded, push| Some(entry_through_face(rounded, push)));
+
+/// Where the line of a force enters through a flat face: of the planes of the three faces that it comes to, the last. Over
+/// edges and corners, which no closed form tells, the incidence is zero.
+#[cfg(feature = "batch")]
+#[inline(always)]
+fn entry_through_face<T: Real>(shape: &RoundedBox<T>, push: &ForceLine<T>) -> Entry<T> {
+    let (f, half, rounding) = (push.force(), shape.half_extents(), shape.rounding());
+    let s = f.cross(&push.torque()) * (T::one() / push.squared());
+    let to = |k: usize| (-half[k].copysign(f[k]) - s[k]) / f[k];
+    let [x, y, z] = [to(0), to(1), to(2)];
+    let later = |a: T, b: T| select_unpredictable(a > b, a, b);
+    let along = later(later(x, y), z);
+    let is_last = [x == along, y == along, z == along];
+    let point = s + f * along;
+    let is_within = |k: usize| is_last[k] | (point[k].abs() <= half[k] - rounding);
+    // At a sharp edge it is two of them.
+    let sole = (is_last[0] ^ is_last[1] ^ is_last[2]) & !(is_last[0] & is_last[1] & is_last[2]);
+    let flat = sole & is_within(0) & is_within(1) & is_within(2);
+    let part = |k: usize| select_unpredictable(is_last[k], T::one().copysign(-f[k]), T::zero());
+    let normal = Vector3::new(part(0), part(1), part(2));
+    let pressing = f.dot(&normal);
+    // Exactly on the face.
+    let on_face = |k: usize| select_unpredictable(is_last[k], half[k].copysign(-f[k]), point[k]);
+    Entry {
+        point: Vector3::new(on_face(0), on_face(1), on_face(2)),
+        normal,
+        incidence_squared: select_unpredictable(flat, pressing * pressing / push.squared(), T::zero()),
+        parts: None,
+        active: true,
+    }
+}
+
+#[cfg(all(test, feature = "batch"))]
+mod tests {
+    use fingertip_surfaces::{ForceLine, RoundedBox};
+    use fingertip_wrench::Wrench;
+    use nalgebra::Vector3;
+
+    use super::entry_through_face;
+
+    /// Through the middle of every face, and over an edge.
+    #[test]
+    fn forces_enter_through_faces() {
+        let shape = RoundedBox::new(Vector3::new(0.01_f64, 0.007, 0.004), 0.002).unwrap();
+        let entry = |at: Vector3<f64>, force: Vector3<f64>| {
+            let wrench: Wrench<f64> = Wrench::from_force_at(&at, force);
+            entry_through_face(&shape, &ForceLine::new(&wrench, ForceLine::least_squared()).unwrap())
+        };
+        for k in 0..3 {
+            for sign in [1.0, -1.0] {
+                let mut normal = Vector3::zeros();
+                normal[k] = sign;
+                let mut point = Vector3::new(1e-3, -5e-4, 7e-4);
+                point[k] = sign * shape.half_extents()[k];
+                let force = Vector3::new(0.2, -0.1, 0.15) - normal * 2.0;
+                let found = entry(point, force);
+                assert!((found.point - point).amax() < 1e-15 && found.normal == normal, "{found:?} {point}");
+                let squared = force[k] * force[k] / force.norm_squared();
+                assert!((found.incidence_squared - squared).abs() < 1e-15);
+            }
+        }
+        let edge = entry(Vector3::new(0.0099, 0.0069, 0.0), Vector3::new(-1.0, -1.0, 0.0));
+        assert_eq!(edge.incidence_squared, 0.0);
+    }
 }

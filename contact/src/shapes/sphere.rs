@@ -48,8 +48,18 @@ pub(super) fn on_sphere<T: Real>(
 /// The same for a force that is tame and presses steeply.
 #[inline(always)]
 pub(super) fn steeply_on_sphere<T: Real>(sphere: &Sphere<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-    let (centre, radius, curvature) = (sphere.centre(), sphere.radius(), sphere.curvature());
-    let (f, m) = (push.force(), push.torque_about(&centre) * curvature);
+    steeply_on_ball(&sphere.centre(), sphere.radius(), sphere.curvature(), push)
+}
+
+/// The same on a sphere of which no more is known, with the reciprocal of its radius.
+#[inline(always)]
+pub(super) fn steeply_on_ball<T: Real>(
+    centre: &Vector3<T>,
+    radius: T,
+    curvature: T,
+    push: &ForceLine<T>,
+) -> Option<SoftContact<T>> {
+    let (f, m) = (push.force(), push.torque_about(centre) * curvature);
     let solved = OnUnitSphere::steep(&f, &m, push.squared(), f.dot(&push.torque()) * curvature)?;
     let normal = solved.point();
     Some(SoftContact {
@@ -73,6 +83,9 @@ soft_finger!(
 );
 
 part_of!(SphericalCap, sphere);
+
+#[cfg(feature = "batch")]
+crate::batch::sweep::swept!(Sphere);
 
 #[cfg(feature = "batch")]
 impl<T: Real> Kernel<T> for Sphere<T> {

@@ -22,6 +22,7 @@ macro_rules! soft_finger {
     ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
         $(, sole |$only:ident, $load:ident| $sole:expr)?
         $(, double |$coarse:ident, $fine:ident| $again:expr)?
+        $(, surely |$sure:ident, $whole:ident, $pose:ident, $found:ident| $surely:expr)?
         $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?
         $(, sizes |$sized:pat_param, $size:ident, $place:pat_param| $change:expr)?) => {
         $(#[$doc])*
@@ -50,6 +51,17 @@ macro_rules! soft_finger {
             ) -> Option<Result<$crate::SoftContact<f64>, $crate::Search<f64>>> {
                 let $coarse = self;
                 $again
+            })?
+
+            $(#[inline]
+            fn with_more_digits(
+                &self,
+                $whole: &fingertip_wrench::Wrench<T>,
+                $pose: Option<&fingertip_wrench::RigidTransform<T>>,
+                $found: Result<$crate::SoftContact<T>, $crate::Search<T>>,
+            ) -> Result<$crate::SoftContact<T>, $crate::Search<T>> {
+                let $sure = self;
+                $surely
             })?
 
             $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<$crate::Patch> {

@@ -152,6 +152,13 @@ impl<T: Real> SoftFinger<T> {
             .map(|()| Self { torque_noise, ..self }.taking_the_short_way())
     }
 
+    /// The least square of a force that takes the short way.
+    #[cfg(feature = "batch")]
+    #[inline]
+    pub(crate) const fn least_squared(&self) -> T {
+        self.least_squared
+    }
+
     /// How much torque along a force may be noise \[N·m\].
     #[inline]
     #[must_use]

@@ -2,10 +2,11 @@
 
 use fingertip_surfaces::LocalSurface;
 use fingertip_surfaces::numeric::twofold::Wide;
-use fingertip_wrench::RigidTransform;
-use nalgebra::{Matrix3, Vector3};
+use fingertip_surfaces::numeric::vectors::wide;
+use fingertip_wrench::{Real, RigidTransform};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::patch::{Digits, Seen, Three, Way, dot, exactly, plus_times, rounded};
+use super::patch::{Digits, Seen, Three, Way, cross, dot, exactly, plus_times, rounded};
 use super::three::unit;
 
 /// The surface near a point, to the last digit, wherever it is.
@@ -57,6 +58,51 @@ fn rows<W: Wide>(matrix: &Matrix3<f64>, v: Three<W>) -> Three<W> {
     let m = matrix;
     let row = |x: f64, y: f64, z: f64| dot([W::exactly(x), W::exactly(y), W::exactly(z)], v);
     [row(m.m11, m.m12, m.m13), row(m.m21, m.m22, m.m23), row(m.m31, m.m32, m.m33)]
+}
+
+/// What a pose of its shape makes of a patch.
+pub(crate) fn placed<T: Real>(patch: Patch, pose: &RigidTransform<T>) -> Option<Patch> {
+    // Of a pose of a pose nothing is told.
+    let Patch { surface, pose: None } = patch else { return None };
+    let rotation = Rotation3::from_matrix_unchecked(pose.rotation().map(Real::to_f64));
+    let placed = RigidTransform::from_parts(rotation, wide(&pose.origin()));
+    Some(Patch { surface, pose: Some(placed) })
+}
+
+impl Patch {
+    /// Force and torque in the frame of the shape under which it has the contact there: `Rᵀf` and
+    /// `det R · R⁻¹(m − o × f)`, whatever the digits of `R` say (`docs/theory/contact.md#shapes-in-a-pose`).
+    pub(super) fn load_inside<W: Wide>(&self, [f, m]: [Vector3<f64>; 2]) -> [Three<W>; 2] {
+        let (force, torque) = (exactly(&f), exactly(&m));
+        let Some(pose) = &self.pose else { return [force, torque] };
+        let about = plus_times(torque, cross(exactly(&pose.origin()), force), W::exactly(-1.0));
+        let r = pose.rotation();
+        let [a, b, c] = [[r.m11, r.m21, r.m31], [r.m12, r.m22, r.m32], [r.m13, r.m23, r.m33]]
+            .map(|column| column.map(W::exactly));
+        // The adjugate of R has the cross products of its columns for rows.
+        let torque = [dot(cross(b, c), about), dot(cross(c, a), about), dot(cross(a, b), about)];
+        [turned_back(pose, force), torque]
+    }
+
+    /// A point, in the frame of the shape.
+    pub(super) fn point_inside(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.pose.map_or(*point, |pose| pose.rotation().tr_mul(&(point - pose.origin())))
+    }
+
+    /// A point of the frame of the shape.
+    pub(super) fn point_outside(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.pose.map_or(*point, |pose| pose.transform_point(point))
+    }
+
+    /// A direction, in the frame of the shape.
+    pub(super) fn direction_inside(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        self.pose.map_or(*direction, |pose| pose.rotation().tr_mul(direction))
+    }
+
+    /// A direction of the frame of the shape.
+    pub(super) fn direction_outside(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        self.pose.map_or(*direction, |pose| pose.rotate(direction))
+    }
 }
 
 impl Digits for Patch {

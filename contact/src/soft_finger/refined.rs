@@ -23,7 +23,7 @@ const STEPS: usize = 16;
 const FLATTEST: f64 = 4.768_371_582_031_25e-7;
 
 /// What a surface is at a point ([`SoftFingerSurface::patch`]).
-type PartAt<'a, T> = &'a dyn Fn(&Vector3<T>) -> Option<Patch>;
+pub(super) type PartAt<'a, T> = &'a dyn Fn(&Vector3<T>) -> Option<Patch>;
 
 /// The solution of the soft-finger equations next to a contact that is off by rounding errors.
 ///
@@ -128,8 +128,9 @@ pub(crate) fn settled<T: Real, S: SoftFingerSurface<T>>(
     settled_on(wrench, &|point| surface.patch(point), contact)
 }
 
+/// The same on a surface that tells what it is, compiled once for all of them.
 #[inline(never)]
-fn settled_on<T: Real>(
+pub(super) fn settled_on<T: Real>(
     wrench: &Wrench<T>,
     patch_at: PartAt<'_, T>,
     contact: &SoftContact<T>,

@@ -256,7 +256,7 @@ impl<T: Real> Seen<T> {
 }
 
 #[inline]
-fn is_in_range<T: Real>(contact: &SoftContact<T>) -> bool {
+pub(crate) fn is_in_range<T: Real>(contact: &SoftContact<T>) -> bool {
     let c = contact.point;
     (c.x + c.y + c.z + contact.spin_torque).is_number()
 }

@@ -1,7 +1,7 @@
 //! What a search for soft-finger contacts finds.
 
 use fingertip_surfaces::{ActiveSurface, ForceLine};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
 use super::placed::Patch;
@@ -150,6 +150,20 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         None
     }
 
+    /// What a search says of the shape in this pose, found anew where the digits of the type do not decide; as it is, by
+    /// default. A pose asks for it after [`soft_contacts`](Self::soft_contacts): it has rounded the wrench.
+    #[doc(hidden)]
+    #[inline]
+    fn with_more_digits(
+        &self,
+        wrench: &Wrench<T>,
+        pose: Option<&RigidTransform<T>>,
+        found: Result<SoftContact<T>, Search<T>>,
+    ) -> Result<SoftContact<T>, Search<T>> {
+        let _ = (wrench, pose);
+        found
+    }
+
     /// How the surface changes at one of its points, per unit of the shape's size of this number: its radii,
     /// semi-axes and lengths, counted from 0 in the order of its constructor. `None`, as the default answers, if
     /// there is no such size. (Moving and turning need no such knowledge:
@@ -198,6 +212,17 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
         (**self).soft_contact_in_double(wrench)
     }
+
+    #[inline]
+    fn with_more_digits(
+        &self,
+        wrench: &Wrench<T>,
+        pose: Option<&RigidTransform<T>>,
+        found: Result<SoftContact<T>, Search<T>>,
+    ) -> Result<SoftContact<T>, Search<T>> {
+        (**self).with_more_digits(wrench, pose, found)
+    }
+
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
         (**self).sensitivity(size, point)
     }

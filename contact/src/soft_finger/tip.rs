@@ -2,12 +2,15 @@
 
 use fingertip_surfaces::LocalSurface;
 use fingertip_surfaces::numeric::mixed_precision::{is_asked_again, is_refined_in_double};
+use fingertip_surfaces::numeric::moved::point_inside;
 use fingertip_surfaces::numeric::twofold::{Twofold, Wide};
 use fingertip_surfaces::numeric::vectors::{largest, length, wide};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
-use super::refined::{scaled, settled};
+use super::patch::Digits;
+use super::placed::{Patch, placed};
+use super::refined::{PartAt, scaled, settled_on};
 use super::rim::touching;
 use super::three::{Three, cross, dot, exactly, plus_times, rounded, unit};
 use crate::{Search, SoftContact, SoftFingerSurface};
@@ -24,11 +27,13 @@ const HAIR: f64 = 1_048_576.0 * f64::EPSILON;
 /// the contact refined from where it says. A narrower type is answered in double precision, whose digits are enough for
 /// its numbers; a number that carries more than a value keeps what was found, which knows the derivative.
 ///
-/// `side` tells the cone, and the tip if it belongs to the shape; `holds` whether a place of the cone does.
+/// `side` tells the cone, and the tip if it belongs to the shape; `holds` whether a place of the cone does; both in the
+/// frame of the shape, of which the pose is told, too.
 #[inline]
 pub(crate) fn surely_on_cone<T: Real, S: SoftFingerSurface<T>>(
     wrench: &Wrench<T>,
     shape: &S,
+    pose: Option<&RigidTransform<T>>,
     side: impl FnOnce() -> (LocalSurface, Option<Vector3<T>>),
     holds: impl Fn(&Vector3<T>) -> bool,
     found: Result<SoftContact<T>, Search<T>>,
@@ -38,27 +43,56 @@ pub(crate) fn surely_on_cone<T: Real, S: SoftFingerSurface<T>>(
         return found;
     }
     let (side, tip) = side();
+    let in_place = |patch| pose.map_or(Some(patch), |pose| placed(patch, pose));
+    let Some(patch) = in_place(side.into()) else { return found };
+    let part_at = |point: &Vector3<T>| {
+        let inside = pose.map_or(*point, |pose| point_inside(pose, point));
+        in_place(shape.patch(&inside)?)
+    };
+    let holds = |point: &Vector3<f64>| holds(&patch.point_inside(point).map(T::literal));
+    surely(wrench, &patch, tip, &part_at, &holds, found)
+}
+
+/// Compiled once for every shape.
+fn surely<T: Real>(
+    wrench: &Wrench<T>,
+    patch: &Patch,
+    tip: Option<Vector3<T>>,
+    part_at: PartAt<'_, T>,
+    holds: &dyn Fn(&Vector3<f64>) -> bool,
+    found: Result<SoftContact<T>, Search<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
     let (scale, load) = scaled(wrench);
     if let Ok(contact) = &found {
-        let (spin, normal) = (contact.spin_torque.to_f64() * scale, wide(&contact.normal));
-        let cone = Straight::<f64>::of(&side);
-        if !cone.is_some_and(|cone| cone.hangs(load, spin, &wide(&contact.point), &normal)) {
+        let (point, normal) = (wide(&contact.point), wide(&contact.normal));
+        let (point, normal) = (patch.point_inside(&point), patch.direction_inside(&normal));
+        let spin = contact.spin_torque.to_f64() * scale;
+        let cone = Straight::<f64>::of(&patch.surface);
+        if !cone.is_some_and(|cone| {
+            cone.hangs(patch.load_inside::<f64>(load).map(Vector3::from), spin, &point, &normal)
+        }) {
             return found;
         }
     }
-    let place = Straight::<Twofold<f64>>::of(&side).and_then(|cone| cone.place(load));
+    let inside = patch.load_inside(load);
+    let place = Straight::<Twofold<f64>>::of(&patch.surface).and_then(|cone| cone.place(inside));
     match (place, tip) {
         (Some(Place::Tip(torque)), Some(tip)) => {
-            let at_tip = touching(Vector3::zeros(), &load[0], &torque, load[0].dot(&torque));
+            let force = rounded(inside[0]);
+            let at_tip = touching(Vector3::zeros(), &force, &torque, force.dot(&torque));
+            let point = patch.point_outside(&wide(&tip)).map(T::literal);
+            let normal = patch.direction_outside(&at_tip.normal).map(T::literal);
             let spin_torque = T::literal(at_tip.spin_torque / scale);
-            Ok(SoftContact { point: tip, normal: at_tip.normal.map(T::literal), spin_torque, active: true })
+            Ok(SoftContact { point, normal, spin_torque, active: true })
         }
         (Some(Place::Side(point)), _) => {
-            let point = point.map(T::literal);
-            let normal = shape.normal(&point);
+            let point = patch.point_outside(&point);
+            let normal = rounded(patch.seen::<f64>(point.into()).normal);
+            let (point, normal) = (point.map(T::literal), normal.map(T::literal));
             let spin_torque = wrench.torque_about(&point).dot(&normal);
             let near = SoftContact { point, normal, spin_torque, active: true };
-            settled(wrench, shape, &near).filter(|contact| holds(&contact.point)).map_or(found, Ok)
+            let settled = settled_on(wrench, part_at, &near);
+            settled.filter(|contact| holds(&wide(&contact.point))).map_or(found, Ok)
         }
         _ => found,
     }
@@ -120,13 +154,13 @@ impl<W: Wide> Straight<W> {
     /// about the tip leans further from the axis than a normal of the side.
     ///
     /// `None` where no place of this half of the cone is pressed on.
-    fn place(&self, [f, m]: [Vector3<f64>; 2]) -> Option<Place> {
-        let torque = plus_times(exactly(&m), cross(self.tip, exactly(&f)), W::exactly(-1.0));
+    fn place(&self, [force, torque]: [Three<W>; 2]) -> Option<Place> {
+        let torque = plus_times(torque, cross(self.tip, force), W::exactly(-1.0));
         let rise = dot(torque, self.into);
         let squared = rise.times(rise);
         let across = dot(torque, torque).minus(squared);
         let lean = across.times(self.slope.times(self.slope)).minus(squared).rounded();
-        let power = dot(exactly(&f), torque).rounded();
+        let (power, f) = (dot(force, torque).rounded(), rounded(force));
         if !(lean > 0.0) {
             // The normal is against the torque if the power is positive, and out of the tip.
             return ((rise.rounded() > 0.0) == (power > 0.0)).then(|| Place::Tip(rounded(torque)));

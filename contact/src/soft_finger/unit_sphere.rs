@@ -1,6 +1,7 @@
 //! The closed form that every ellipsoid reduces to.
 
 use fingertip_surfaces::ForceLine;
+use fingertip_surfaces::numeric::twofold::{Twofold, dot};
 use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
@@ -44,9 +45,33 @@ impl<T: Real> OnUnitSphere<T> {
     // Called, it costs as much again as it computes, for what it returns does not fit into registers.
     #[inline(always)]
     pub(crate) fn new(f: &Vector3<T>, m: &Vector3<T>, force: T, power: T) -> Self {
-        let half = T::literal(0.5);
         let torque = m.norm_squared();
-        let (squares, sigma, twice) = (force + torque, torque - force, power + power);
+        Self::with_difference(f, m, [force, torque], torque - force, power)
+    }
+
+    /// The same from numbers with twice the digits. Where the force grazes `|m|` is nearly `|f|`: what rounding leaves of
+    /// the digits of `σ` is divided by the square of the cosine of incidence, and all else keeps its own.
+    ///
+    /// # Errors
+    /// [`grazing`](Self::grazing): the pair of points that a pure force which misses would graze.
+    #[inline(never)]
+    pub(crate) fn finely(
+        f: [Twofold<T>; 3],
+        m: [Twofold<T>; 3],
+        power: Twofold<T>,
+    ) -> Result<Self, [Vector3<T>; 2]> {
+        let (force, torque) = (dot(f, f), dot(m, m));
+        let (f, m) = (Vector3::from(f.map(Twofold::value)), Vector3::from(m.map(Twofold::value)));
+        let squares = [force.value(), torque.value()];
+        let solved = Self::with_difference(&f, &m, squares, torque.minus(force).value(), power.value());
+        solved.grazing(&f, &m).map_or(Ok(solved), Err)
+    }
+
+    /// With `|f|²` and `|m|²`, and `σ` apart from them.
+    #[inline(always)]
+    fn with_difference(f: &Vector3<T>, m: &Vector3<T>, [force, torque]: [T; 2], sigma: T, power: T) -> Self {
+        let half = T::literal(0.5);
+        let (squares, twice) = (force + torque, power + power);
         let root = (sigma * sigma + twice * twice).root();
         // k² + |f|² = (ρ + |m|² + |f|²)/2, which does not wait for k.
         let inverse = T::one() / ((root + squares) * half);

@@ -1,9 +1,9 @@
 //! Batches answer as one at a time.
 
-use fingertip_contact::batch::{BatchSurface, Contacts, Lines, Wrenches};
+use fingertip_contact::batch::{BatchSurface, Contacts, Lines, SoftContacts, Wrenches};
 use fingertip_contact::*;
 use fingertip_surfaces::*;
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -172,6 +172,106 @@ batches!(plane, Plane::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0)), true);
 batches!(cylinder, Cylinder::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::one()), true);
 batches!(ellipsoid, Ellipsoid::new(v(1.0, 0.8, 0.6)), false);
 batches!(capsule, Capsule::new(v(0.1, -0.2, 0.3), v(1.0, 2.0, 3.0), T::literal(0.6), T::literal(0.5)), false);
+
+batches!(cone, Cone::new(v(0.1, -0.2, 0.6), v(-1.0, -2.0, -3.0), T::literal(0.6)), true);
+batches!(
+    frustum,
+    Frustum::new(v(0.1, -0.2, -0.6), v(0.0, 0.3, 3.0), T::literal(0.9), T::literal(0.5), T::one()),
+    true
+);
+batches!(
+    capped,
+    CappedCylinder::new(v(0.1, -0.2, 0.1), v(1.0, 2.0, 3.0), T::literal(0.7), T::literal(0.6)),
+    true
+);
+batches!(elliptic, EllipticCylinder::new([1.0, 0.6].map(T::literal), CylinderEnds::Unbounded), true);
+batches!(
+    open_elliptic,
+    EllipticCylinder::new([1.0, 0.6].map(T::literal), CylinderEnds::Open(T::literal(0.7))),
+    true
+);
+batches!(
+    capped_elliptic,
+    EllipticCylinder::new([1.0, 0.6].map(T::literal), CylinderEnds::Capped(T::literal(0.7))),
+    true
+);
+batches!(paraboloid, Paraboloid::new([1.0, 0.6].map(T::literal)), true);
+batches!(rounded_box, RoundedBox::new(v(1.0, 0.7, 0.5), T::literal(0.2)), true);
+batches!(sharp_box, RoundedBox::new(v(1.0, 0.7, 0.5), T::zero()), true);
+
+/// Every wrench as by itself, to the bit: those that a closed form tells, at flat angles, that miss, zero and NaN.
+fn soft_as_alone<T: Real, S: SoftFingerSurface<T>>(surface: &S) {
+    let mut random = Pcg64Mcg::seed_from_u64(21);
+    let count = 403;
+    let wrenches: Vec<Wrench<T>> = (0..count)
+        .map(|k| {
+            let mut vector = |size: f64| Vector3::<f64>::from_fn(|_, _| random.random_range(-size..size));
+            let (force, through) = (vector(2.0), vector(if k < 200 { 0.2 } else { 1.2 }));
+            // Of every third the torque is that of the force alone.
+            let spin = if k % 3 == 0 { Vector3::zeros() } else { vector([0.1, 3.0][k % 2]) };
+            let torque = through.cross(&force) + spin;
+            let (force, torque) = match k % 50 {
+                47 => (force, torque * f64::NAN),
+                48 => (Vector3::zeros(), torque),
+                49 => (force * 1e-30, torque * 1e-30),
+                _ => (force, torque),
+            };
+            Wrench::on_fingertip(force.map(T::literal), torque.map(T::literal))
+        })
+        .collect();
+    let column = |k: usize| wrenches.iter().map(|wrench| wrench.components()[k]).collect::<Vec<T>>();
+    let given = [0, 1, 2, 3, 4, 5].map(column);
+    let [fx, fy, fz, tx, ty, tz] = given.each_ref().map(|column| &column[..]);
+    for model in [SoftFinger::new(T::zero()), SoftFinger::new(T::literal(0.5))] {
+        let model = model.unwrap().without_friction_limit();
+        // The shortest column counts.
+        let mut out = [0, 1, 2, 3, 4, 5, 6].map(|k| vec![T::literal(7.0); count - k % 2]);
+        let [px, py, pz, nx, ny, nz, spin_torque] = out.each_mut().map(|column| &mut column[..]);
+        let (point, normal) = ([px, py, pz], [nx, ny, nz]);
+        model.resolve_all(
+            surface,
+            Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] },
+            SoftContacts { point, normal, spin_torque },
+        );
+        assert!((0..7).all(|k| out[k].get(count - 1).is_none_or(|last| *last == T::literal(7.0))));
+        let mut met = 0;
+        for (k, wrench) in wrenches.iter().take(count - 1).enumerate() {
+            let found = out.each_ref().map(|column| column[k]);
+            let expected = model.resolve(wrench, surface).contact().map_or([T::zero(); 7], |contact| {
+                met += 1;
+                let (c, n) = (contact.point, contact.normal);
+                [c.x, c.y, c.z, n.x, n.y, n.z, contact.spin_torque]
+            });
+            assert_eq!(found, expected, "{k}: {wrench:?}");
+        }
+        assert!(met > 100, "{met}");
+    }
+}
+
+#[test]
+fn soft_fingers_in_columns() {
+    fn check<T: Real>() {
+        let l = T::literal;
+        let axis: Vector3<T> = v(1.0, 2.0, 3.0);
+        soft_as_alone(&Plane::new(v(0.1, -0.2, 0.3), axis).unwrap());
+        soft_as_alone(&Sphere::new(v(0.1, -0.2, 0.3), T::one()).unwrap());
+        soft_as_alone(&Ellipsoid::<T>::new(v(1.0, 0.8, 0.6)).unwrap());
+        soft_as_alone(&Cylinder::new(v(0.1, -0.2, 0.3), axis, T::one()).unwrap());
+        soft_as_alone(&Capsule::new(v(0.1, -0.2, 0.3), axis, l(0.6), l(0.5)).unwrap());
+        soft_as_alone(&Cone::new(v(0.1, -0.2, 0.6), -axis, l(0.6)).unwrap());
+        let frustum = Frustum::new(v(0.1, -0.2, -0.6), axis, l(0.9), l(0.5), T::one()).unwrap();
+        soft_as_alone(&frustum);
+        soft_as_alone(&CappedCylinder::new(v(0.1, -0.2, 0.1), axis, l(0.7), l(0.6)).unwrap());
+        let ends = CylinderEnds::Capped(l(0.7));
+        soft_as_alone(&EllipticCylinder::new([1.0, 0.6].map(T::literal), ends).unwrap());
+        // Without a closed form, and in another place.
+        soft_as_alone(&RoundedBox::new(v(1.0, 0.7, 0.5), l(0.2)).unwrap());
+        let turned = RigidTransform::<T>::translation(v(0.1, 0.0, 0.2));
+        soft_as_alone(&Posed::new(frustum, turned));
+    }
+    check::<f32>();
+    check::<f64>();
+}
 
 /// The tests above have spheres of about one metre: here of a fingertip's size, and a building's, away from the origin.
 #[test]

@@ -76,10 +76,15 @@ impl Load {
         (index / (strength * strength)).to_f64().abs()
     }
 
+    /// The cosine of incidence; that of an edge is not told.
+    pub(crate) fn grazes(&self, truth: &Truth) -> f64 {
+        let along = |normal: &Big3| -(dot(&self.force, normal) / self.magnitude()).to_f64();
+        truth.normal.as_ref().map_or(1.0, along)
+    }
+
     /// On the surface without edges.
     pub(crate) fn on_smooth(&self, surface: &impl Exact, start: Big3) -> Option<Truth> {
         let (f, m) = (&self.force, &self.torque);
-        let strength = self.magnitude();
         let (_, normal) = surface.height_and_normal(&start);
         let mut spin = &dot(f, m) / &dot(f, &normal);
         let mut point = start;
@@ -116,9 +121,8 @@ impl Load {
             spin = spin + twist * damping;
             if longest < 1e-19 * far {
                 let (_, normal) = surface.height_and_normal(&point);
-                let grazes = -(dot(f, &normal) / strength).to_f64();
                 let found = Truth { point, normal: Some(normal), spin, steepest };
-                return (grazes > 1e-22).then_some(found);
+                return (self.grazes(&found) > 1e-22).then_some(found);
             }
         }
         None

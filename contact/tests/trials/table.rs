@@ -91,30 +91,6 @@ macro_rules! table {
     };
 }
 
-/// Single precision, for which double precision answers. (In double, of 10⁵ soft contacts on posed frustums one next to
-/// the tip is wrong.)
-macro_rules! singles {
-    ($($name:ident: $single:ty;)*) => {
-        $(#[test]
-        fn $name() {
-            check(stringify!($name), &[rows::<f32, $single>(stringify!($name), false, trials(300, false))]);
-        })*
-
-        mod long_singles {
-            use super::*;
-            $(#[test]
-            #[ignore = "a million trials: minutes in release"]
-            fn $name() {
-                check(stringify!($name), &[rows::<f32, $single>(stringify!($name), false, trials(0, true))]);
-            })*
-        }
-    };
-}
-
-singles! {
-    posed_frustum: Posed<f32, Frustum<f32>>;
-}
-
 /// Nothing wrong, nothing lost, nothing false; but in single precision, the last, without the feature that refines it, where at
 /// these angles and spin torques rounding decides some: of those one in three may be wrong, and one in a hundred lost or false.
 fn check(name: &str, precisions: &[[Count; 4]]) {
@@ -154,6 +130,8 @@ table! {
     posed_capsule: Posed<f64, Capsule<f64>>, Posed<f32, Capsule<f32>>, points true;
     posed_capped_cylinder: Posed<f64, CappedCylinder<f64>>, Posed<f32, CappedCylinder<f32>>, points false;
     posed_elliptic_cylinder: Posed<f64, EllipticCylinder<f64>>, Posed<f32, EllipticCylinder<f32>>, points false;
+    posed_frustum: Posed<f64, Frustum<f64>>, Posed<f32, Frustum<f32>>, points false;
+    posed_cone: Posed<f64, Cone<f64>>, Posed<f32, Cone<f32>>, points false;
     posed_plane: Posed<f64, Plane<f64>>, Posed<f32, Plane<f32>>, points true;
     posed_sphere: Posed<f64, Sphere<f64>>, Posed<f32, Sphere<f32>>, points true;
     posed_ellipsoid: Posed<f64, Ellipsoid<f64>>, Posed<f32, Ellipsoid<f32>>, points true;

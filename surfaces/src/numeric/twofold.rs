@@ -181,6 +181,12 @@ impl Wide for Twofold<f64> {
     }
 }
 
+/// The same numbers.
+#[inline]
+pub fn exactly<T: Real>(v: &Vector3<T>) -> [Twofold<T>; 3] {
+    [Twofold::new(v.x), Twofold::new(v.y), Twofold::new(v.z)]
+}
+
 /// `a − b`, exactly.
 #[inline]
 pub fn difference<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> [Twofold<T>; 3] {
@@ -196,7 +202,7 @@ pub fn dot<T: Real>([a, b, c]: [Twofold<T>; 3], [x, y, z]: [Twofold<T>; 3]) -> T
 /// Scalar product with a vector of ordinary numbers.
 #[inline]
 pub fn dot_with<T: Real>(a: [Twofold<T>; 3], b: &Vector3<T>) -> Twofold<T> {
-    dot(a, [Twofold::new(b.x), Twofold::new(b.y), Twofold::new(b.z)])
+    dot(a, exactly(b))
 }
 
 /// How far the end of a vector is outside the ball of this radius about its start, to first order:

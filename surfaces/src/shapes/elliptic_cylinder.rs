@@ -64,6 +64,9 @@ pub struct EllipticCylinder<T: Real> {
     semi_axes: [T; 2],
     curvatures: [T; 2],
     ends: CylinderEnds<T>,
+    /// The half length, or the greatest number, and whether it is closed: of `ends`, without a choice.
+    half: T,
+    is_capped: bool,
 }
 
 impl<T: Real> EllipticCylinder<T> {
@@ -81,7 +84,12 @@ impl<T: Real> EllipticCylinder<T> {
         if let CylinderEnds::Open(half) | CylinderEnds::Capped(half) = ends {
             BadShape::check_length(shape, "half length", half)?;
         }
-        Ok(Self { semi_axes, curvatures: [T::one() / a, T::one() / b], ends })
+        let (half, is_capped) = match ends {
+            CylinderEnds::Unbounded => (T::GREATEST, false),
+            CylinderEnds::Open(half) => (half, false),
+            CylinderEnds::Capped(half) => (half, true),
+        };
+        Ok(Self { semi_axes, curvatures: [T::one() / a, T::one() / b], ends, half, is_capped })
     }
 
     /// The semi-axes along x and y \[m\].
@@ -103,6 +111,14 @@ impl<T: Real> EllipticCylinder<T> {
     #[must_use]
     pub const fn ends(&self) -> CylinderEnds<T> {
         self.ends
+    }
+
+    /// The half length \[m\], the greatest number if it has none, and whether it is closed there: what
+    /// [`ends`](Self::ends) say, without a choice.
+    #[inline]
+    #[doc(hidden)]
+    pub const fn half_length(&self) -> (T, bool) {
+        (self.half, self.is_capped)
     }
 
     /// The same in double precision.

@@ -72,6 +72,13 @@ impl<T: Real> Paraboloid<T> {
         self.radii
     }
 
+    /// Their reciprocals \[1/m\].
+    #[inline]
+    #[doc(hidden)]
+    pub const fn curvatures(&self) -> [T; 2] {
+        self.curvatures
+    }
+
     /// Depth of the active part \[m\]; `None` if unbounded.
     #[inline]
     #[must_use]
