@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use fingertip::surfaces::{ActiveSurface, Cylinder, DynSurface, Mesh, Plane, Posed, Sphere, SphericalCap};
+use fingertip::surfaces::{
+    ActiveSurface, BadShape, CappedCylinder, Capsule, Cone, Cylinder, Disk, DynSurface, Frustum, Mesh, Plane,
+    Posed, Sphere, SphericalCap,
+};
 use fingertip::wrench::{Real, RigidTransform};
 use nalgebra::Vector3;
 use serde::de::DeserializeOwned;
@@ -123,12 +126,8 @@ impl SurfaceSection for UrdfSection {
 pub(crate) enum Placing<T: Real> {
     /// It is there already.
     Here,
-    /// A plane is put there itself, which costs nothing per sample.
-    Plane { point: Vector3<T>, normal: Vector3<T> },
-    /// So is a sphere.
-    Sphere { centre: Vector3<T>, pole: Vector3<T> },
-    /// So is a cylinder.
-    Cylinder { centre: Vector3<T>, axis: Vector3<T> },
+    /// A shape about an axis is put there itself, which costs nothing per sample: an origin and a direction by their keys.
+    There { origin: (&'static str, Vector3<T>), direction: (&'static str, Vector3<T>) },
     /// Others are [`Posed`].
     Posed(RigidTransform<T>),
 }
@@ -142,20 +141,23 @@ pub(crate) fn placing<T: Real>(
     if *section == PoseSection::default() {
         return Ok(Placing::Here);
     }
-    Ok(match surface {
-        DynSurface::Plane(plane) => Placing::Plane {
-            point: pose.transform_point(&plane.point()),
-            normal: pose.rotate(&plane.normal(&plane.point())),
-        },
-        DynSurface::Sphere(cap) => Placing::Sphere {
-            centre: pose.transform_point(&cap.sphere().centre()),
-            pole: pose.rotate(&cap.pole()),
-        },
-        DynSurface::Cylinder(cylinder) => Placing::Cylinder {
-            centre: pose.transform_point(&cylinder.centre()),
-            axis: pose.rotate(&cylinder.axis()),
-        },
-        _ => Placing::Posed(pose),
+    let (keys, origin, direction) = match surface {
+        DynSurface::Plane(plane) => (["point_m", "normal"], plane.point(), plane.normal(&plane.point())),
+        DynSurface::Disk(disk) => {
+            (["centre_m", "normal"], disk.plane().point(), disk.plane().normal(&disk.plane().point()))
+        }
+        DynSurface::Sphere(cap) => (["centre_m", "pole"], cap.sphere().centre(), cap.pole()),
+        DynSurface::Cylinder(cylinder) => (["centre_m", "axis"], cylinder.centre(), cylinder.axis()),
+        DynSurface::CappedCylinder(cylinder) => (["centre_m", "axis"], cylinder.centre(), cylinder.axis()),
+        DynSurface::Capsule(capsule) => (["centre_m", "axis"], capsule.centre(), capsule.axis()),
+        DynSurface::Cone(cone) => (["apex_m", "axis"], cone.apex(), cone.axis()),
+        DynSurface::Frustum(frustum) => (["base_centre_m", "axis"], frustum.base_centre(), frustum.axis()),
+        _ => return Ok(Placing::Posed(pose)),
+    };
+    let [at, along] = keys;
+    Ok(Placing::There {
+        origin: (at, pose.transform_point(&origin)),
+        direction: (along, pose.rotate(&direction)),
     })
 }
 
@@ -164,19 +166,46 @@ pub(crate) fn placed<T: Real>(
     surface: DynSurface<T>,
     section: &PoseSection,
 ) -> Result<DynSurface<T>, SceneProblem> {
-    Ok(match (placing(&surface, section)?, surface) {
-        (Placing::Plane { point, normal }, _) => DynSurface::Plane(Plane::new(point, normal)?),
-        (Placing::Sphere { centre, pole }, DynSurface::Sphere(cap)) => {
-            let sphere = Sphere::new(centre, cap.sphere().radius())?;
-            DynSurface::Sphere(SphericalCap::new(sphere, pole, cap.least_cosine())?)
+    Ok(match placing(&surface, section)? {
+        Placing::Here => surface,
+        Placing::There { origin: (_, origin), direction: (_, direction) } => {
+            standing(surface, origin, direction)?
         }
-        (Placing::Cylinder { centre, axis }, DynSurface::Cylinder(cylinder)) => {
-            let whole = Cylinder::new(centre, axis, cylinder.radius())?;
-            let half = cylinder.half_length();
-            DynSurface::Cylinder(half.map_or(Ok(whole), |half| whole.with_half_length(half))?)
+        Placing::Posed(pose) => DynSurface::Posed(Box::new(Posed::new(surface, pose))),
+    })
+}
+
+/// The same shape about another axis.
+fn standing<T: Real>(
+    surface: DynSurface<T>,
+    at: Vector3<T>,
+    along: Vector3<T>,
+) -> Result<DynSurface<T>, BadShape> {
+    Ok(match surface {
+        DynSurface::Plane(_) => Plane::new(at, along)?.into(),
+        DynSurface::Disk(disk) => Disk::new(at, along, disk.radius())?.into(),
+        DynSurface::Sphere(cap) => {
+            SphericalCap::new(Sphere::new(at, cap.sphere().radius())?, along, cap.least_cosine())?.into()
         }
-        (Placing::Posed(pose), other) => DynSurface::Posed(Box::new(Posed::new(other, pose))),
-        (_, here) => here,
+        DynSurface::Cylinder(cylinder) => {
+            let whole = Cylinder::new(at, along, cylinder.radius())?;
+            cylinder.half_length().map_or(Ok(whole), |half| whole.with_half_length(half))?.into()
+        }
+        DynSurface::CappedCylinder(cylinder) => {
+            CappedCylinder::new(at, along, cylinder.radius(), cylinder.half_length())?.into()
+        }
+        DynSurface::Capsule(capsule) => {
+            Capsule::new(at, along, capsule.radius(), capsule.half_length())?.into()
+        }
+        DynSurface::Cone(cone) => {
+            let whole = Cone::new(at, along, cone.half_angle())?;
+            cone.depth().map_or(Ok(whole), |depth| whole.with_depth(depth))?.into()
+        }
+        DynSurface::Frustum(frustum) => {
+            let [below, above] = [frustum.base_radius(), frustum.top_radius()];
+            Frustum::new(at, along, below, above, frustum.height())?.into()
+        }
+        other => other,
     })
 }
 

@@ -82,6 +82,11 @@ fn on(surface: &DynSurface<f64>, force: f64) -> Result<Vec<DesignTouch>, DesignE
             let reach = cylinder.radius().hypot(cylinder.half_length().unwrap_or(REACH));
             all(cylinder, cylinder.centre(), reach, force)
         }
+        DynSurface::Disk(disk) => all(disk, disk.plane().point(), REACH, force),
+        DynSurface::CappedCylinder(cylinder) => all(cylinder, cylinder.centre(), REACH, force),
+        DynSurface::Capsule(capsule) => all(capsule, capsule.centre(), REACH, force),
+        DynSurface::Cone(cone) => all(cone, cone.apex(), REACH, force),
+        DynSurface::Frustum(frustum) => all(frustum, frustum.base_centre(), REACH, force),
         DynSurface::Posed(other) => all(other.as_ref(), other.sensor_from_shape().origin(), REACH, force),
         other => all(other, Vector3::zeros(), REACH, force),
     }

@@ -1,21 +1,16 @@
 //! Solids of revolution with flat ends: closed cylinder, cone, truncated cone.
 
 use fingertip_surfaces::numeric::vectors::{length, wide};
-use fingertip_surfaces::{
-    ActiveSurface, CappedCylinder, Cone, ForceLine, Frustum, LocalSurface, SmoothSurface,
-};
+use fingertip_surfaces::{ActiveSurface, CappedCylinder, ForceLine, Frustum, LocalSurface, SmoothSurface};
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
-use super::cone::on_cone;
 use super::cylinder::on_round_side;
 use super::plane::on_plane;
 use super::slanted_side::SlantedSide;
 use crate::model::flat;
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
-use crate::soft_finger::newton::Problem;
-use crate::soft_finger::refined::settled;
 use crate::soft_finger::rim::on_rim;
 use crate::soft_finger::tip::surely_on_cone;
 use crate::{GeometrySensitivity, Search, SoftContact};
@@ -84,25 +79,21 @@ fn on_straight_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<S
     on_round_side(&base, &axis, radius, &wrench.force(), &wrench.torque_about(&base))
 }
 
-/// On the side, unbounded: by a closed form, and a step of Newton's method, which makes good what the
-/// closed form of a slender cone loses by counting from a far apex.
+/// On the side, unbounded, counted from the narrower end: so nothing cancels next to a tip.
 fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-    let (base, axis, taper) = (solid.base_centre(), solid.axis(), solid.taper());
-    let cone = || {
-        let apex = base + axis * (solid.base_radius() / taper);
-        let into = if taper > T::zero() { -axis } else { axis };
-        Cone::of_slope(apex, into, taper.abs())
-    };
-    let rough = if taper.is_zero() { None } else { cone().map(|cone| on_cone(&cone, wrench)) };
-    let rough = match rough {
-        Some(contact) => contact.ok()?,
-        None => on_straight_side(solid, wrench)?,
-    };
-    if taper.is_zero() {
-        return Some(rough);
+    let mut side = slanted_side(solid);
+    if solid.top_radius() < side.radius {
+        side.origin += side.axis * solid.height();
+        side.radius = solid.top_radius();
     }
-    let polished = Problem::new(solid, &wrench.force(), &wrench.torque()).polished(&rough);
-    polished.or_else(|| settled(wrench, solid, &rough))
+    side.contact(wrench).ok()
+}
+
+/// The side, unbounded, from the base.
+#[inline(always)]
+fn slanted_side<T: Real>(solid: &Frustum<T>) -> SlantedSide<T> {
+    let (sine, cosine) = (solid.taper() * solid.side_cosine(), solid.side_cosine());
+    SlantedSide { origin: solid.base_centre(), axis: solid.axis(), radius: solid.base_radius(), sine, cosine }
 }
 
 /// The contact of a force that presses steeply, on the side or within the end that it presses on: a convex body has
@@ -110,11 +101,8 @@ fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContac
 #[inline(always)]
 fn steeply_on_frustum<T: Real>(solid: &Frustum<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
     let (base, axis, height) = (solid.base_centre(), solid.axis(), solid.height());
-    let cosine = solid.side_cosine();
-    let side =
-        SlantedSide { origin: base, axis, radius: solid.base_radius(), sine: solid.taper() * cosine, cosine };
     let hair = hair(solid);
-    if let Some((contact, above)) = side.steep_contact(push)
+    if let Some((contact, above)) = slanted_side(solid).steep_contact(push)
         && above >= hair
         && above <= height - hair
     {

@@ -1,11 +1,12 @@
 //! The straight side of a cone, a frustum or a cylinder.
 
 use fingertip_surfaces::ForceLine;
-use fingertip_wrench::Real;
+use fingertip_surfaces::numeric::vectors::{larger, largest};
+use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use crate::SoftContact;
 use crate::model::flat;
+use crate::{Search, SoftContact};
 
 /// Whether rounding is multiplied by no more than 15, by `(1 + t/|f|)²/(p/|f|)²` for a force that presses with `p` and a spin
 /// torque of which the turn of the normal makes a force `t`.
@@ -75,5 +76,49 @@ impl<T: Real> SlantedSide<T> {
         let is_near = (around > T::zero()) & (around * T::literal(4.0) >= radius);
         let found = is_steady & (pressing > T::zero()) & is_near;
         found.then_some((SoftContact { point, normal, spin_torque, active: true }, height))
+    }
+
+    /// The soft-finger contact of any force that is tame, by the same formulas. How many digits it has is for whoever asks to
+    /// look at.
+    ///
+    /// # Errors
+    /// How the search ended: [`Search::Complete`] if no rounding of the wrench gives the side a contact, of which a pure force
+    /// needs no proof, since it either hits or misses.
+    #[inline(never)]
+    pub(super) fn contact(&self, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+        let &Self { origin, axis, radius, sine, cosine } = self;
+        let (f, m) = (wrench.force(), wrench.torque_about(&origin));
+        let (rise, turning) = (f.dot(&axis), m.dot(&axis));
+        let v = (m - axis * turning) * sine + f.cross(&axis) * (radius * cosine);
+        let w = turning * cosine;
+        // Neither size nor torque is known to be near 1.
+        let scale = larger(largest(&v), w.abs()).normalising_factor();
+        let (v, w) = (v * scale, w * scale);
+        let squared = v.norm_squared();
+        let root_squared = squared - w * w;
+        let root = root_squared.max(T::zero()).root();
+        let outward = (v * w - axis.cross(&v) * root) * (T::one() / squared);
+        let normal = outward * cosine + axis * sine;
+        let pressing = -f.dot(&normal);
+        let (power, share) = (f.dot(&wrench.torque()), T::one() / pressing);
+        let along = (m.dot(&outward.cross(&axis)) - rise * radius) * share;
+        let around = radius - along * sine;
+        if (root_squared > T::zero()) & (pressing > T::zero()) & (around >= T::zero()) {
+            let arm = outward * around + axis * (along * cosine);
+            // Where the force grazes, `f·m/f·n` has the digits of `f·n`; what the force leaves of the torque has all.
+            let grazes = pressing * pressing < f.norm_squared() * flat::<T>() * flat::<T>();
+            let spin_torque = if grazes { normal.dot(&(m - arm.cross(&f))) } else { -power * share };
+            return Ok(SoftContact { point: origin + arm, normal, spin_torque, active: true });
+        }
+        // Rounding of the torque about the origin, of the root's square, and of what turning the normal by it makes of the
+        // force: `δ`, at most `4 (|v| + |w|) δ`, and `6 |f| δ` over the root.
+        let (size, hair) = (largest(&f), T::literal(8.0) * T::EPSILON);
+        let loose = hair * (largest(&m) + size * (largest(&origin) + radius));
+        let pure = power.abs() <= loose * size * T::literal(3.0);
+        let loose = loose * scale;
+        let unsure = root_squared.abs() <= loose * T::literal(24.0);
+        let pulls = pressing < -size * (hair * T::literal(4.0) + loose * T::literal(12.0) / root);
+        let certain = !unsure & (pulls | (root_squared < T::zero()));
+        Err(if certain | pure { Search::Complete } else { Search::Incomplete })
     }
 }

@@ -50,11 +50,19 @@ pub(crate) fn unless_grazing<T: Real>(
     wrench: &Wrench<f64>,
     found: Result<SoftContact<f64>, [Vector3<f64>; 2]>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    unless_flat::<T>(wrench, found.map_err(Search::Grazing))
+}
+
+/// The same of a search.
+pub(crate) fn unless_flat<T: Real>(
+    wrench: &Wrench<f64>,
+    found: Result<SoftContact<f64>, Search<f64>>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
     let force = wrench.force();
     let least = 4.0 * T::EPSILON.to_f64() * length(&force);
     match found {
         Ok(contact) if !(-force.dot(&contact.normal) > least) => None,
-        found => Some(found.map_err(Search::Grazing)),
+        found => Some(found),
     }
 }
 

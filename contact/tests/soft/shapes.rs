@@ -363,6 +363,68 @@ fn a_pure_force_that_misses_grazes_two_points() {
     check::<f32, _>("ellipsoid", &common::ellipsoid(), 0.017);
 }
 
+/// So it is over a dome: such a line lies in a plane beside a tangent plane.
+#[test]
+fn a_pure_force_over_a_dome_grazes_two_points() {
+    fn check<T: Real>() {
+        let mut random = Random::new(29);
+        let surface = common::paraboloid::<T>();
+        let [a, b] = surface.radii().map(Real::to_f64);
+        for _ in 0..2000 {
+            let [x, y] = [0; 2].map(|_| 0.012 * random.uniform(-1.0, 1.0));
+            let below = Vector3::new(x, y, -(x * x / a + y * y / b) / 2.0);
+            let normal = Vector3::new(x / a, y / b, 1.0).normalize();
+            let force = random.direction().cross(&normal).normalize();
+            let place = below + normal * (0.01 * random.log_uniform(0.1, 3.0));
+            let number = |v: Vector3<f64>| v.map(T::literal);
+            let wrench = Wrench::from_force_at(&number(place), number(force));
+            match SoftFinger::new(T::zero()).unwrap().without_friction_limit().resolve(&wrench, &surface) {
+                Resolution::NoContact(NoContact::Ambiguous { first, second }) => {
+                    // The force lies in both tangent planes.
+                    for point in [first, second] {
+                        let level = surface.level(&point);
+                        let (normal, _) = level.normal().unwrap();
+                        let along = normal.dot(&wrench.force()).to_f64().abs();
+                        assert!(along <= 1e4 * T::EPSILON.to_f64(), "{along:e} {point} {wrench:?}");
+                        let size = T::literal(0.01) + point.amax();
+                        assert!(level.value.abs() <= size * T::EPSILON * T::literal(64.0), "{point}");
+                    }
+                }
+                other => panic!("{wrench:?} {other:?}"),
+            }
+        }
+    }
+    check::<f64>();
+    check::<f32>();
+}
+
+/// A force along the axis has a contact where it presses, however it spins, and none where it pulls.
+#[test]
+fn a_force_along_the_axis_of_a_dome() {
+    fn check<T: Real>() {
+        let model = SoftFinger::new(T::zero()).unwrap().without_friction_limit();
+        let surface = common::paraboloid::<T>();
+        let [a, b] = surface.radii().map(Real::to_f64);
+        for (x, y, spin) in [(0.0, 0.0, 0.0), (0.004, 0.0, 0.0), (0.003, -0.006, 2e-3), (-0.005, 0.002, -0.1)]
+        {
+            let point = Vector3::new(x, y, -(x * x / a + y * y / b) / 2.0);
+            let gradient = Vector3::new(x / a, y / b, 1.0);
+            let load = |rise: f64| {
+                let force = Vector3::new(0.0, 0.0, rise);
+                let torque = point.cross(&force) + gradient * spin;
+                Wrench::<T>::on_fingertip(force.map(T::literal), torque.map(T::literal))
+            };
+            let found = model.resolve(&load(-2.0), &surface).into_result().unwrap();
+            let off = (found.point.map(Real::to_f64) - point).amax();
+            assert!(off <= 16.0 * T::EPSILON.to_f64() * 0.01, "{off:e} {found:?}");
+            let pulled = model.resolve(&load(2.0), &surface);
+            assert!(matches!(pulled, Resolution::NoContact(_)), "{pulled:?}");
+        }
+    }
+    check::<f64>();
+    check::<f32>();
+}
+
 #[test]
 fn extreme_numbers_give_no_nan() {
     fn check<T: Real, S: SoftFingerSurface<T>>(surface: &S, wrench: &Wrench<T>) {
@@ -384,6 +446,7 @@ fn extreme_numbers_give_no_nan() {
         let single = Wrench::on_fingertip(force, torque);
         check::<f32, _>(&common::sphere(), &single);
         check::<f32, _>(&common::ellipsoid(), &single);
+        check::<f32, _>(&common::paraboloid(), &single);
         check::<f32, _>(&common::cylinder(), &single);
         check::<f32, _>(&common::plane(), &single);
         check::<f32, _>(&common::capsule(), &single);

@@ -114,9 +114,7 @@ impl<T: Real + DeserializeOwned> Writer<T> {
         let shape: DynSurface<T> = built(&surface)?;
         let moved = match placing(&shape, pose)? {
             Placing::Here => vec![],
-            Placing::Plane { point, normal } => vec![("point_m", point), ("normal", normal)],
-            Placing::Sphere { centre, pole } => vec![("centre_m", centre), ("pole", pole)],
-            Placing::Cylinder { centre, axis } => vec![("centre_m", centre), ("axis", axis)],
+            Placing::There { origin, direction } => vec![origin, direction],
             Placing::Posed(pose) => {
                 let shape = self.shape(&surface)?;
                 return Ok(Self::posed(&shape, &pose));

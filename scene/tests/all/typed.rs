@@ -2,8 +2,8 @@
 
 use fingertip::contact::{PointContact, SoftFinger};
 use fingertip::friction::{Coulomb, DropDetector, ForceNoise, SoftFingerLimit};
-use fingertip::surfaces::{Capsule, Posed, Sphere};
-use fingertip::wrench::{RigidTransform, Wrench};
+use fingertip::surfaces::{ActiveSurface, Capsule, DynSurface, Posed, Sphere};
+use fingertip::wrench::{Line, RigidTransform, Wrench};
 use fingertip::{Absent, Fingertip, Present, Step, TouchSensor};
 use fingertip_scene::{Pipeline, Scene};
 use nalgebra::Vector3;
@@ -57,11 +57,13 @@ fn a_soft_finger_on_a_capsule_that_is_turned() {
         ($t:ty, $pipeline:ident) => {
             let number = |x: f64| x as $t;
             let turn = Vector3::new(0.0, 90.0_f64.to_radians(), 0.0).map(number);
-            let pose =
-                RigidTransform::from_axis_angle(turn, Vector3::new(0.001, 0.0, 0.002).map(number)).unwrap();
-            let capsule = Capsule::new(Vector3::zeros(), Vector3::z(), number(0.008), number(0.01)).unwrap();
+            let at = Vector3::new(0.001, 0.0, 0.002).map(number);
+            let pose: RigidTransform<$t> = RigidTransform::from_axis_angle(turn, at).unwrap();
+            // About its own axis where the pose puts it, at no cost.
+            let (centre, axis) = (pose.transform_point(&Vector3::zeros()), pose.rotate(&Vector3::z()));
+            let capsule = Capsule::new(centre, axis, number(0.008), number(0.01)).unwrap();
             let mut typed = Fingertip::builder()
-                .contact(Posed::new(capsule, pose), SoftFinger::new(0.0).unwrap())
+                .contact(capsule, SoftFinger::new(0.0).unwrap())
                 .friction(SoftFingerLimit::new(number(0.5), number(0.003)).unwrap())
                 .build();
             let mut last = None;
@@ -80,6 +82,54 @@ fn a_soft_finger_on_a_capsule_that_is_turned() {
     }
     check!(f64, double);
     check!(f32, single);
+}
+
+/// A shape about an axis stands where its pose puts it, and is what [`Posed`] makes of it: a line meets both at the same
+/// places, with the same normals.
+#[test]
+fn shapes_about_an_axis_stand_where_their_pose_puts_them() {
+    let shapes = [
+        "shape = \"plane\"\npoint_m = [0.001, 0.0, 0.002]\nnormal = [0.0, 0.6, 0.8]\n",
+        "shape = \"disk\"\nradius_m = 0.01\nnormal = [0.0, 0.6, 0.8]\n",
+        "shape = \"sphere\"\nradius_m = 0.013\npole = [0.0, 1.0, 0.0]\nactive_half_angle_deg = 70.0\n",
+        "shape = \"cylinder\"\nradius_m = 0.007\nhalf_length_m = 0.01\naxis = [1.0, 0.0, 0.0]\n",
+        "shape = \"capped_cylinder\"\nradius_m = 0.007\nhalf_length_m = 0.01\ncentre_m = [0.0, 0.001, 0.0]\n",
+        "shape = \"capsule\"\nradius_m = 0.007\nhalf_length_m = 0.01\n",
+        "shape = \"cone\"\nhalf_angle_deg = 31.0\ndepth_m = 0.02\napex_m = [0.0, 0.001, 0.0]\n",
+        "shape = \"frustum\"\nheight_m = 0.01\nbase_radius_m = 0.008\ntop_radius_m = 0.005\n",
+    ];
+    let turn = Vector3::new(10.0, 70.0, -30.0).map(f64::to_radians);
+    let pose = RigidTransform::from_axis_angle(turn, Vector3::new(0.001, -0.002, 0.003)).unwrap();
+    for shape in shapes {
+        let here = format!("{HEAD}[surface]\n{shape}");
+        let there = format!(
+            "{here}[pose]\ntranslation_m = [0.001, -0.002, 0.003]\nrotation_deg = [10.0, 70.0, -30.0]\n"
+        );
+        let [here, there] = [here, there].map(|text| Scene::from_text(&text).unwrap());
+        assert!(!matches!(there.surface(), DynSurface::Posed(_)), "{shape}");
+        let posed = Posed::new(here.surface().clone(), pose);
+        let mut met = 0;
+        for push in pushes(7, 500) {
+            let line = Line { point: push.torque(), direction: push.force().normalize() };
+            let crossings = |surface: &dyn Fn(&mut dyn FnMut(_))| {
+                let mut found = Vec::new();
+                surface(&mut |crossing| found.push(crossing));
+                found
+            };
+            let ours = crossings(&|visit| there.surface().crossings(&line, visit));
+            let theirs = crossings(&|visit| posed.crossings(&line, visit));
+            assert_eq!(ours.len(), theirs.len(), "{shape} {line:?}");
+            // Where the line meets it, and by more than rounding makes of a tangent.
+            for (a, b) in ours.iter().zip(&theirs).filter(|(a, _)| a.along.abs() < 1.0) {
+                let flat = a.normal.dot(&line.direction).powi(2);
+                assert!((a.point - b.point).amax() * flat < 1e-15, "{shape} {a:?} {b:?}");
+                assert!((a.normal - b.normal).amax() * flat < 1e-12, "{shape} {a:?} {b:?}");
+                assert_eq!(a.active, b.active, "{shape} {a:?} {b:?}");
+                met += 1;
+            }
+        }
+        assert!(met > 100, "{shape}: {met}");
+    }
 }
 
 /// Columns of wrenches give what one wrench after another gives, whatever the stages; where these are vectors, to

@@ -4,7 +4,6 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
-use crate::active_surface::{entered_and_left, rare_crossings};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{any_perpendicular, foot, is_finite, length, unit_or, wide};
@@ -74,37 +73,6 @@ impl<T: Real> Cone<T> {
             least_across: axis.least_across(),
             tangent_rest: T::literal(exact - tangent.to_f64()),
             half_angle,
-            sine,
-            cosine,
-            tangent,
-            depth: None,
-        })
-    }
-
-    /// With the apex at the origin and the z axis into it, unbounded.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn upright(&self) -> Self {
-        let axis = Axis::new(Vector3::zeros(), Vector3::z());
-        Self { axis, least_across: axis.least_across(), depth: None, ..*self }
-    }
-
-    /// From its apex, the unit vector into it, and the tangent of the half angle, which a tapered side is known by. Sine and
-    /// cosine are those of that number, rounded once; no angle is asked for.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn of_slope(apex: Vector3<T>, into: Vector3<T>, tangent: T) -> Option<Self> {
-        let (one, slope) = (Twofold::new(T::one()), Twofold::new(tangent));
-        let cosine = one.divided_by(slope.squared().plus(one).root());
-        let (sine, cosine) = (cosine.times(slope).value(), cosine.value());
-        let least = T::EPSILON.root();
-        let good = is_finite(&apex) && sine >= least && cosine >= least;
-        let axis = Axis::new(apex, into);
-        good.then(|| Self {
-            axis,
-            least_across: axis.least_across(),
-            tangent_rest: T::zero(),
-            half_angle: tangent.arctangent(),
             sine,
             cosine,
             tangent,
@@ -217,12 +185,6 @@ impl<T: Real> ActiveSurface<T> for Cone<T> {
         );
     }
 
-    /// By the crossings that a soft finger asks for on its way, too.
-    #[inline(always)]
-    fn entered_and_left(&self, line: &Line<T>) -> (bool, Option<Vector3<T>>) {
-        entered_and_left(line, |visit| rare_crossings(self, line, visit))
-    }
-
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (from_apex, _) = foot(line, &self.axis.origin);
         let distance = length(&from_apex);
@@ -311,32 +273,4 @@ stored! {
     },
     Cone::new(apex_m, axis, from_degrees(half_angle_deg))
         .and_then(|cone| depth_m.map_or(Ok(cone), |depth| cone.with_depth(depth)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Cone;
-    use nalgebra::Vector3;
-
-    /// Against double precision: a cone that is told by its slope is the one of that angle.
-    #[test]
-    fn slopes_tell_what_angles_do() {
-        for step in 1..900_u16 {
-            let slope = 10_f32.powf(f32::from(step) / 150.0 - 3.0);
-            let told = Cone::of_slope(Vector3::zeros(), Vector3::z(), slope).unwrap();
-            let angle = f64::from(slope).atan();
-            let (sine, cosine) = told.half_angle_sin_cos();
-            let ends =
-                [(sine, angle.sin(), 0.51), (cosine, angle.cos(), 0.51), (told.half_angle(), angle, 1.5)];
-            for (found, exact, units) in ends {
-                let off = (f64::from(found) - exact).abs();
-                assert!(off <= units * f64::from(f32::EPSILON) * exact, "{slope}: {found} {exact}");
-            }
-        }
-        for none in [0.0, 1e-9, 1e9, f32::NAN, f32::INFINITY, -1.0] {
-            assert_eq!(Cone::of_slope(Vector3::zeros(), Vector3::z(), none), None);
-        }
-        let upright = Cone::new(Vector3::new(1.0, 2.0, 3.0), Vector3::x(), 0.4).unwrap().upright();
-        assert_eq!(upright, Cone::new(Vector3::zeros(), Vector3::z(), 0.4).unwrap());
-    }
 }

@@ -141,8 +141,9 @@ impl<T: Real> EllipticCylinder<T> {
         }
     }
 
-    /// Of a point scaled to the unit circle.
-    #[inline]
+    /// Of a point scaled to the unit circle. Once where the smallest programs are asked for.
+    #[cfg_attr(feature = "mixed-precision", inline)]
+    #[cfg_attr(not(feature = "mixed-precision"), inline(never))]
     fn side_normal(&self, x: T, y: T) -> Vector3<T> {
         let [a, b] = self.curvatures;
         unit_or(&Vector3::new(x * a, y * b, T::zero()), Vector3::x)

@@ -3,7 +3,6 @@
 use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::active_surface::{entered_and_left, rare_crossings};
 use crate::numeric::quadratic::roots;
 use crate::numeric::support;
 use crate::numeric::twofold::Twofold;
@@ -79,6 +78,14 @@ impl<T: Real> Paraboloid<T> {
         self.curvatures
     }
 
+    /// The same in double precision.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_double(&self) -> Option<Paraboloid<f64>> {
+        let double = Paraboloid::new(self.radii.map(Real::to_f64)).ok()?;
+        self.depth.map_or(Some(double), |depth| double.with_depth(depth.to_f64()).ok())
+    }
+
     /// Depth of the active part \[m\]; `None` if unbounded.
     #[inline]
     #[must_use]
@@ -119,12 +126,6 @@ impl<T: Real> ActiveSurface<T> for Paraboloid<T> {
                 });
             }
         }
-    }
-
-    /// By the crossings that a soft finger asks for on its way, too.
-    #[inline(always)]
-    fn entered_and_left(&self, line: &Line<T>) -> (bool, Option<Vector3<T>>) {
-        entered_and_left(line, |visit| rare_crossings(self, line, visit))
     }
 
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {

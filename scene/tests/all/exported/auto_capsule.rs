@@ -34,7 +34,7 @@ use fingertip::{contact, surfaces, wrench};
 /// The pipeline.
 pub type Tip = Fingertip<
     Absent,
-    surfaces::Posed<f64, surfaces::Capsule<f64>>,
+    surfaces::Capsule<f64>,
     contact::Auto<f64>,
     Absent,
     Absent,
@@ -46,13 +46,7 @@ pub type Tip = Fingertip<
 /// Never for the numbers below.
 #[allow(clippy::approx_constant)]
 pub fn tip() -> Result<Tip, BadTip> {
-    let surface = surfaces::Posed::new(
-        surfaces::Capsule::new(Vector3::zeros(), Vector3::z(), 0.008, 0.01)?,
-        wrench::RigidTransform::from_matrix(
-            Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
-            Vector3::new(0.0, 0.0, 0.02),
-        )?,
-    );
+    let surface = surfaces::Capsule::new(Vector3::new(0.0, 0.0, 0.02), Vector3::z(), 0.008, 0.01)?;
     let model = contact::Auto::new(
         contact::PointContact::new(0.1)?,
         contact::SoftFinger::new(0.1)?,
@@ -114,33 +108,4 @@ pub fn covariance<Reading, Verdict>(
 }
 
 /// Why the numbers of this module make nothing: never, unless they are edited into nonsense.
-#[derive(Clone, Debug, PartialEq)]
-pub enum BadTip {
-    /// A shape, a contact model or an uncertainty.
-    Shape(surfaces::BadShape),
-    /// A pose.
-    Pose(wrench::TransformError),
-}
-
-impl core::fmt::Display for BadTip {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Shape(bad) => bad.fmt(f),
-            Self::Pose(bad) => bad.fmt(f),
-        }
-    }
-}
-
-impl core::error::Error for BadTip {}
-
-impl From<surfaces::BadShape> for BadTip {
-    fn from(bad: surfaces::BadShape) -> Self {
-        Self::Shape(bad)
-    }
-}
-
-impl From<wrench::TransformError> for BadTip {
-    fn from(bad: wrench::TransformError) -> Self {
-        Self::Pose(bad)
-    }
-}
+pub type BadTip = surfaces::BadShape;
