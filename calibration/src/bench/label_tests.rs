@@ -85,7 +85,7 @@ fn labels_of_dimensions_are_free_of_each_other_and_of_lines() {
 }
 
 /// The nearest label of those that are asked for.
-fn nearest<'a>(paper: &'a Paper, at: [f64; 2], asked: impl Fn(&str) -> bool) -> (&'a str, [f64; 4]) {
+fn nearest(paper: &Paper, at: [f64; 2], asked: impl Fn(&str) -> bool) -> (&str, [f64; 4]) {
     let labels = paper.texts.iter().zip(&paper.rooms).filter(|(text, _)| asked(text));
     let (text, room) = labels.min_by(|a, b| apart(*a.1, at).total_cmp(&apart(*b.1, at))).unwrap();
     (text, *room)
