@@ -35,6 +35,8 @@
 
 mod drawing;
 mod foil;
+#[cfg(test)]
+mod label_tests;
 mod template;
 #[cfg(test)]
 mod tests;

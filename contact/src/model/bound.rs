@@ -82,8 +82,8 @@ impl<T: Real> ContactBound<T> {
     /// errors, where linear bounds would be infinite. Rounding in the scalar type is included.
     ///
     /// The computed contact is that of [`PointContact`](crate::PointContact), or for a line that misses the closest
-    /// point of the sphere. `None` if the wrench has no line of action or the force error is not
-    /// smaller than the force.
+    /// point of the sphere. `None` if the wrench has no line of action, or if the error of the force is not
+    /// smaller than the force or that of the radius not smaller than the radius.
     #[must_use]
     pub fn on_sphere(sphere: &Sphere<T>, wrench: &Wrench<T>, errors: &WorstErrors<T>) -> Option<Self> {
         let zero = T::zero();

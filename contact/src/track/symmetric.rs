@@ -109,4 +109,13 @@ mod tests {
             }
         }
     }
+
+    /// A measurement without noise leaves nothing along it: then rounding has the last word, and it is to be mended.
+    #[test]
+    fn without_variance_along_an_axis_it_is_none() {
+        assert!(!Symmetric { xx: 0.0, xy: 0.0, yy: 1.0 }.is_covariance());
+        assert!(!Symmetric { xx: 1.0, xy: 0.0, yy: 0.0 }.is_covariance());
+        assert!(!Symmetric { xx: 0.0, xy: 0.0, yy: 1.0 }.is_definite());
+        assert!(!Symmetric { xx: 1.0, xy: 0.0, yy: 0.0 }.is_definite());
+    }
 }

@@ -167,6 +167,9 @@ fn bound_follows_its_laws() {
     assert!(rigorous < 2.0 * linear && linear < 2.0 * rigorous, "{rigorous} {linear}");
     // An error as large as the force leaves nothing to be said.
     assert!(ContactBound::on_sphere(&sphere, &wrench, &WorstErrors::of_wrench(2.0, 0.0)).is_none());
+    // Nor does one as large as the radius leave a sphere.
+    let of_radius = |radius| ContactBound::on_sphere(&sphere, &wrench, &WorstErrors { radius, ..small });
+    assert!(of_radius(0.012).is_some() && of_radius(0.013).is_none() && of_radius(0.014).is_none());
 }
 
 /// It cannot be excluded that the contact grazes where the error that the tube is, seen along the surface, is a

@@ -252,6 +252,43 @@ fn without_closure_a_load_is_told_that_none_holds() {
     assert!(open > 40, "{open}");
 }
 
+/// Rough fingers that all push the way a point of a turning object goes there: what nothing bears lies in a narrow cone
+/// about that movement, and so in one orthant of loads: each axis is borne one way and not the other. In every orthant such a
+/// hand is found out.
+#[test]
+fn what_is_not_borne_is_found_in_every_orthant() {
+    let length = 0.03;
+    let places = [Vector3::new(1.0, 1.0, 1.0), Vector3::new(-1.0, -1.0, 1.0)]
+        .map(|p| [p, Vector3::new(p.y, -p.x, -p.z)])
+        .as_flattened()
+        .iter()
+        .map(|p| p * (length / 3_f64.sqrt()))
+        .collect::<Vec<_>>();
+    for orthant in 0..64 {
+        let sign = |axis: u32| if orthant >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        let velocity = Vector3::new(sign(0), sign(1), sign(2));
+        let turning = Vector3::new(sign(3), sign(4), sign(5)) / length;
+        let grasp = Grasp::<f64, 4, TestHand>::new([0, 1, 2, 3].map(|finger| {
+            let place = places[finger];
+            let goes = velocity + turning.cross(&place);
+            soft(place, goes.normalize(), 10.0, 0.02 * length)
+        }));
+        assert!(grasp.contacts().iter().all(Option::is_some), "{orthant:b}");
+        let ball = grasp.ball(Metric::Each { length }).unwrap();
+        assert_eq!((ball.found, ball.certified), (0.0, 0.0), "{orthant:b}");
+        let u = weakest(&grasp, Metric::Each { length });
+        assert!(support(&grasp, &-u, Metric::Each { length }).0 < 1e-6, "{orthant:b}: {u}");
+        for axis in Matrix6::identity().column_iter() {
+            let is_held = |u: Vector6<f64>| {
+                let load = load(&grasp, &u, length);
+                let limits = [FingerLimits::<f64, 0>::none(); 4];
+                matches!(LeastGrip::new().solve(&grasp, &limits, &load), GripOutcome::Held(_))
+            };
+            assert_ne!(is_held(axis.into_owned()), is_held(-axis), "{orthant:b}");
+        }
+    }
+}
+
 /// A certificate is never more than what is borne, friction without bound or without any: where its squares leave the
 /// range of the type there is none.
 #[test]

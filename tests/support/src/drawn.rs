@@ -18,6 +18,9 @@ pub struct Paper {
     pub lines: Vec<Line>,
     /// The texts.
     pub texts: Vec<String>,
+    /// What room each text of an SVG takes: left, top, right and bottom \[mm\], of letters half as wide as they are
+    /// high, which few are not.
+    pub rooms: Vec<[f64; 4]>,
 }
 
 impl Paper {
@@ -83,6 +86,14 @@ pub fn svg(text: &str) -> Paper {
             let points = vec![[x + r, y], [x, y + r], [x - r, y], [x, y - r]];
             paper.lines.push(Line { name, points });
         } else if let Some((_, text)) = tag.strip_prefix("text").and_then(|tag| tag.split_once('>')) {
+            let (x, y, high) = (value("x"), value("y"), value("font-size"));
+            let wide = 0.5 * high * text.chars().count() as f64;
+            let left = match attribute(tag, "text-anchor") {
+                Some("end") => x - wide,
+                Some("middle") => x - 0.5 * wide,
+                _ => x,
+            };
+            paper.rooms.push([left, y - 0.7 * high, left + wide, y]);
             paper.texts.push(text.to_owned());
         }
     }

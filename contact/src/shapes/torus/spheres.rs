@@ -159,7 +159,8 @@ impl<T: Real> Around<T> {
             let guess = (low.value + high.value) * half + (low.slope - high.slope) * width * eighth;
             let size = low.value.abs() + high.value.abs() + middle.value.abs();
             let wrong = (middle.value - guess).abs();
-            let tells = wrong <= size * T::literal(0.02) + T::EPSILON * T::literal(64.0);
+            let rounding = T::EPSILON * T::literal(64.0);
+            let tells = wrong <= size * T::literal(0.02) + rounding;
             if tells || halvings >= DEPTH {
                 self.between(&low, &middle, found);
                 self.between(&middle, &high, found);

@@ -245,3 +245,49 @@ pub(super) fn isolated<T: Real>(
     }
     (isolation.doubts.count == before).then_some(isolation.count)
 }
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::{PI, TAU};
+
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    use super::*;
+
+    /// `(1 − cos(θ − α)) (1 − cos(θ − β))`, θ from the middle of the first eighth, touches zero at `α` and at `β`: no zeros can
+    /// be told, and each of the two places is a doubt of its own, as narrow as halving makes it.
+    #[test]
+    fn each_double_zero_is_a_doubt_of_its_own() {
+        let mut random = Pcg64Mcg::seed_from_u64(54);
+        for _ in 0..200 {
+            let first: f64 = random.random_range(0.0..TAU);
+            let second = first + random.random_range(0.3..TAU - 0.3);
+            let (sum, apart) = (first + second, first - second);
+            let polynomial: Fourth<f64> = [
+                1.0 + 0.5 * apart.cos(),
+                -first.cos() - second.cos(),
+                -first.sin() - second.sin(),
+                0.5 * sum.cos(),
+                0.5 * sum.sin(),
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+            ];
+            let (mut cells, mut doubts) = ([Cell::nowhere(); MOST], Doubts::none());
+            let count = isolated(polynomial, [1e-13, 0.0], |_, _, _| true, &mut cells, &mut doubts);
+            assert_eq!(count, None, "{first} {second}");
+            let ends: Vec<f64> = doubts.ends().collect();
+            let [a, b, c, d] = *ends.as_slice() else { panic!("{first} {second}: {ends:?}") };
+            assert!(a < b && b < c && c < d && b - a < 1e-3 && d - c < 1e-3, "{ends:?}");
+            for zero in [first, second] {
+                let is_in = |low: f64, high: f64| {
+                    let off = (zero + MIDDLE_ANGLE - 0.5 * (low + high) + PI).rem_euclid(TAU) - PI;
+                    off.abs() <= 0.5 * (high - low)
+                };
+                assert!(is_in(a, b) != is_in(c, d), "{zero}: {ends:?}");
+            }
+        }
+    }
+}
