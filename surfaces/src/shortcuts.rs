@@ -58,6 +58,11 @@ pub trait Shortcuts<T: Real>: Sized {
     /// without what other shapes need, such as a choice between entries. The default promises nothing.
     const CLOSED_CONVEX: bool = false;
 
+    /// `true` if a pose has moved the shape: moving a line rounds it once more, and point contact in a narrower type then asks
+    /// double precision at angles that are a little less flat.
+    #[doc(hidden)]
+    const MOVED: bool = false;
+
     /// Where a force enters, for shapes that no line enters twice.
     ///
     /// `None`, as the default answers, says nothing. An answer with a positive square of the
@@ -131,6 +136,7 @@ impl<T: Real> Shortcuts<T> for NoShortcuts {}
 
 impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for &S {
     const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
+    const MOVED: bool = S::MOVED;
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
@@ -159,6 +165,8 @@ struct Within<S, F> {
 }
 
 impl<T: Real, S: Shortcuts<T>, F: Fn(&Entry<T>) -> bool> Shortcuts<T> for Within<S, F> {
+    const MOVED: bool = S::MOVED;
+
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         self.whole
@@ -189,6 +197,7 @@ struct Moved<'a, T: Real, S> {
 
 impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for Moved<'_, T, S> {
     const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
+    const MOVED: bool = true;
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
@@ -230,7 +239,14 @@ pub(crate) fn entry_near(
     best.map(|(_, entry)| entry).filter(|[point, normal]| (point.sum() + normal.sum()).is_number())
 }
 
-/// [`Shortcuts::CLOSED_CONVEX`] of the shortcuts of a surface, whose type has no name.
+/// [`Shortcuts::MOVED`] of the shortcuts of a surface, whose type has no name.
+#[doc(hidden)]
+#[inline(always)]
+pub const fn is_moved<T: Real, S: Shortcuts<T>>(_: &S) -> bool {
+    S::MOVED
+}
+
+/// [`Shortcuts::CLOSED_CONVEX`] of the same.
 #[doc(hidden)]
 #[inline(always)]
 pub const fn is_closed_convex<T: Real, S: Shortcuts<T>>(_: &S) -> bool {

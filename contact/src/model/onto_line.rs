@@ -7,7 +7,7 @@ use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
-use super::flat;
+use super::point_contact::flat_on;
 
 /// Where the contact is.
 pub(super) struct Place<T: Real> {
@@ -31,7 +31,7 @@ pub(super) fn entered<T: Real, S: ActiveSurface<T>>(
     (point, normal): (Vector3<T>, Vector3<T>),
     incidence: T,
 ) -> Place<T> {
-    if incidence < flat() {
+    if incidence < flat_on(&surface.shortcuts()) {
         let (point, normal) = onto_line(wrench, surface, (point, normal), incidence);
         return Place::at(point, normal);
     }

@@ -1,8 +1,9 @@
 //! Contact in a point, without local torque.
 
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, largest};
 use fingertip_surfaces::{
-    ActiveSurface, BadShape, ClosestApproach, ForceLine, ForceParts, Shortcuts, is_closed_convex,
+    ActiveSurface, BadShape, ClosestApproach, ForceLine, ForceParts, Shortcuts, is_closed_convex, is_moved,
 };
 use fingertip_wrench::{
     ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
@@ -58,6 +59,12 @@ pub struct PointContact<T: Real> {
 #[inline]
 pub(crate) fn flat<T: Real>() -> T {
     T::literal(0.3)
+}
+
+/// The same on a surface: higher in a narrower type where a pose has moved the shape, which rounds the line once more.
+#[inline(always)]
+pub(super) fn flat_on<T: Real, S: Shortcuts<T>>(shortcuts: &S) -> T {
+    if is_asked_again::<T>() && is_moved(shortcuts) { T::literal(0.45) } else { flat() }
 }
 
 impl<T: Real> PointContact<T> {
@@ -238,9 +245,12 @@ impl<T: Real> PointContact<T> {
     ) -> Option<(Contact<T>, Option<ForceParts<T>>)> {
         let [least_squared, least_steepness] = self.short_way;
         let push = ForceLine::new(wrench, least_squared)?;
-        let entry = surface.shortcuts().sole_entry(&push)?;
-        (entry.active && entry.incidence_squared >= least_steepness)
-            .then(|| (contact_at(wrench, entry.point, entry.normal), entry.parts))
+        let shortcuts = surface.shortcuts();
+        let entry = shortcuts.sole_entry(&push)?;
+        let steep = entry.incidence_squared >= least_steepness
+            && (!is_moved(&shortcuts)
+                || entry.incidence_squared >= flat_on::<T, _>(&shortcuts).whole_power(2));
+        (entry.active && steep).then(|| (contact_at(wrench, entry.point, entry.normal), entry.parts))
     }
 
     /// The contact, or the reason why there is none.

@@ -10,7 +10,7 @@ use fingertip_surfaces::numeric::vectors::smaller;
 use fingertip_surfaces::{
     ActiveSurface, CylinderEnds, EllipticCylinder, ForceLine, LocalSurface, SmoothSurface,
 };
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
 use super::cylinder::on_cylinder;
@@ -18,6 +18,7 @@ use super::plane::on_plane;
 use super::slanted_side::is_steep;
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
+use crate::soft_finger::edge::surely_on_side;
 use crate::soft_finger::rim::on_elliptic_rim;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
@@ -170,13 +171,43 @@ fn elliptic_in_double<T: Real>(
     shape.in_double().map(|double| on_elliptic_cylinder(&double, wrench))
 }
 
+/// The same where rounding decides between the side and an edge.
+fn surely_beside_edges<T: Real>(
+    shape: &EllipticCylinder<T>,
+    wrench: &Wrench<T>,
+    pose: Option<&RigidTransform<T>>,
+    found: Result<SoftContact<T>, Search<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let (half, is_capped) = shape.half_length();
+    if !is_capped {
+        return found;
+    }
+    let [a, b] = shape.semi_axes();
+    let hair = (half + a + b) * (T::literal(64.0) * T::EPSILON);
+    let on_edge = |point: &Vector3<T>| (point.z.abs() - half).abs() <= hair;
+    let between = |point: &Vector3<T>| point.z.abs() <= half;
+    surely_on_side(wrench, pose, side_of(shape), on_edge, between, found)
+}
+
+/// The side, unbounded.
+fn side_of<T: Real>(shape: &EllipticCylinder<T>) -> LocalSurface {
+    LocalSurface::EllipticCylinder { semi_axes: shape.semi_axes().map(Real::to_f64) }
+}
+
 soft_finger!(
     EllipticCylinder,
-    |shape, wrench, _, visit| told(on_elliptic_cylinder_finely(shape, wrench), visit),
+    |shape, wrench, _, visit| {
+        let found = on_elliptic_cylinder_finely(shape, wrench);
+        told(surely_beside_edges(shape, wrench, None, found), visit)
+    },
     sole | shape,
     push | steeply_on_elliptic_cylinder(shape, push),
     double | shape,
     wrench | elliptic_in_double(shape, wrench),
+    surely | shape,
+    wrench,
+    pose,
+    found | surely_beside_edges(shape, wrench, pose, found),
     patch | shape,
     point
         | Some(match shape.ends() {
@@ -184,7 +215,7 @@ soft_finger!(
                 let end = Vector3::z() * 1.0_f64.copysign(point.z.to_f64());
                 LocalSurface::Plane { point: end * half.to_f64(), normal: end }
             }
-            _ => LocalSurface::EllipticCylinder { semi_axes: shape.semi_axes().map(Real::to_f64) },
+            _ => side_of(shape),
         }),
     sizes | shape,
     size,

@@ -11,6 +11,7 @@ use super::slanted_side::SlantedSide;
 use crate::model::flat;
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
+use crate::soft_finger::edge::surely_on_side;
 use crate::soft_finger::rim::on_rim;
 use crate::soft_finger::tip::surely_on_cone;
 use crate::{GeometrySensitivity, Search, SoftContact};
@@ -177,7 +178,21 @@ fn surely_on_frustum<T: Real>(
         }
     };
     let side = || (side_of_frustum(shape, &base), tip());
-    surely_on_cone(wrench, shape, pose, side, |point| is_between_ends(shape, point), found)
+    let found = surely_on_cone(wrench, shape, pose, side, |point| is_between_ends(shape, point), found);
+    surely_beside_edges(shape, wrench, pose, found)
+}
+
+/// The same where rounding decides between the side and an edge.
+fn surely_beside_edges<T: Real>(
+    solid: &Frustum<T>,
+    wrench: &Wrench<T>,
+    pose: Option<&RigidTransform<T>>,
+    found: Result<SoftContact<T>, Search<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let side = side_of_frustum(solid, &solid.base_centre());
+    let (on_edge, between) =
+        (|point: &Vector3<T>| is_on_edge(solid, point), |point: &Vector3<T>| is_between_ends(solid, point));
+    surely_on_side(wrench, pose, side, on_edge, between, found)
 }
 
 fn capped_in_double<T: Real>(
@@ -245,14 +260,20 @@ soft_finger!(
 
 soft_finger!(
     CappedCylinder,
-    |shape, wrench, _, visit| told(
-        on_frustum_finely(shape.solid(), wrench, on_straight_side, |wrench| capped_in_double(shape, wrench)),
-        visit
-    ),
+    |shape, wrench, _, visit| {
+        let solid = shape.solid();
+        let found =
+            on_frustum_finely(solid, wrench, on_straight_side, |wrench| capped_in_double(shape, wrench));
+        told(surely_beside_edges(solid, wrench, None, found), visit)
+    },
     sole | shape,
     push | steeply_on_frustum(shape.solid(), push),
     double | shape,
     wrench | capped_in_double(shape, wrench),
+    surely | shape,
+    wrench,
+    pose,
+    found | surely_beside_edges(shape.solid(), wrench, pose, found),
     patch | shape,
     point | {
         let half = shape.half_length().to_f64();

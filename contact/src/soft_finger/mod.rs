@@ -3,6 +3,7 @@
 pub(crate) mod closed_form;
 pub(crate) mod convex;
 pub(crate) mod double;
+pub(crate) mod edge;
 pub(crate) mod mended;
 pub(crate) mod model;
 pub(crate) mod newton;

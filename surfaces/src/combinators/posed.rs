@@ -144,6 +144,7 @@ struct InPlace<'a, T: Real, S, M> {
 
 impl<T: Real, S: ActiveSurface<T>, M: Shortcuts<T>> Shortcuts<T> for InPlace<'_, T, S, M> {
     const CLOSED_CONVEX: bool = M::CLOSED_CONVEX;
+    const MOVED: bool = M::MOVED;
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
