@@ -21,12 +21,15 @@ use crate::{Search, SoftContact};
 /// With `c = A y`, `A = diag(a)`, the equations become those of the unit sphere under the wrench
 /// `(A⁻¹ f, A m / det A)`; the spin torque is `k |A⁻¹ y| · det A` in the scale of that wrench.
 /// (`D = A⁻²` in `docs/theory/contact.md#central-quadrics`, where the identity is `(Df) × m = A(f̃ × m̃)`.)
+/// `fine` asks for twice the digits, which a narrower type that asks in double precision does not need.
 ///
 /// # Errors
 /// The pair of points that a pure force which misses would graze.
+#[inline(always)]
 pub(super) fn on_ellipsoid<T: Real>(
     shape: &Ellipsoid<T>,
     wrench: &Wrench<T>,
+    fine: bool,
 ) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
     let semi_axes = shape.semi_axes();
     // Lengths in units of the largest semi-axis, by a power of two; then the product of two
@@ -37,14 +40,18 @@ pub(super) fn on_ellipsoid<T: Real>(
     let f = wrench.force().component_mul(&b);
     let m = wrench.torque().component_mul(&(across(&b) * unit));
     let scale = taming_factor(larger(largest(&f), largest(&m)));
-    let [bx, by, bz] = <[T; 3]>::from(semi_axes * unit).map(|a| Twofold::new(T::one()).over(a));
-    let (force, torque) = (exactly(&(wrench.force() * scale)), exactly(&(wrench.torque() * unit * scale)));
-    let (xy, power) = (bx.times(by), dot(force, torque));
-    let ([fx, fy, fz], [mx, my, mz]) = (force, torque);
-    let f = [fx.times(bx), fy.times(by), fz.times(bz)];
-    let m = [mx.times(by.times(bz)), my.times(bz.times(bx)), mz.times(xy)];
-    let solved = OnUnitSphere::finely(f, m, power.times(xy.times(bz)))
-        .map_err(|pair| pair.map(|point| point.component_mul(&semi_axes)))?;
+    let loads = [wrench.force() * scale, wrench.torque() * unit * scale];
+    let solved = if fine {
+        finely(&(semi_axes * unit), loads)
+    } else {
+        let [force, torque] = loads;
+        let (f, m) = (f * scale, m * scale);
+        // As on the sphere: what is exactly zero before stretching shall be so after it.
+        let power = force.dot(&torque) * (b.x * b.y * b.z);
+        let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power);
+        solved.grazing(&f, &m).map_or(Ok(solved), Err)
+    };
+    let solved = solved.map_err(|pair| pair.map(|point| point.component_mul(&semi_axes)))?;
     let point = solved.point();
     let gradient = point.component_mul(&b);
     let steepness = gradient.norm_squared().root();
@@ -55,6 +62,20 @@ pub(super) fn on_ellipsoid<T: Real>(
         spin_torque: solved.spin * volume * steepness * scale.normalising_factor(),
         active: true,
     })
+}
+
+/// On the unit sphere, stretched with twice the digits.
+fn finely<T: Real>(
+    semi_axes: &Vector3<T>,
+    [force, torque]: [Vector3<T>; 2],
+) -> Result<OnUnitSphere<T>, [Vector3<T>; 2]> {
+    let [bx, by, bz] = <[T; 3]>::from(*semi_axes).map(|a| Twofold::new(T::one()).over(a));
+    let (force, torque) = (exactly(&force), exactly(&torque));
+    let (xy, power) = (bx.times(by), dot(force, torque));
+    let ([fx, fy, fz], [mx, my, mz]) = (force, torque);
+    let f = [fx.times(bx), fy.times(by), fz.times(bz)];
+    let m = [mx.times(by.times(bz)), my.times(bz.times(bx)), mz.times(xy)];
+    OnUnitSphere::finely(f, m, power.times(xy.times(bz)))
 }
 
 /// The same for a force that is tame and presses steeply, on an ellipsoid of which the same holds.
@@ -91,11 +112,14 @@ fn across<T: Real>(b: &Vector3<T>) -> Vector3<T> {
 
 soft_finger!(
     Ellipsoid,
-    |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench).map_err(Search::Grazing), visit),
+    |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench, true).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_ellipsoid(shape, push),
     double | shape,
-    wrench | shape.in_double().and_then(|double| unless_grazing::<T>(wrench, on_ellipsoid(&double, wrench))),
+    wrench
+        | shape
+            .in_double()
+            .and_then(|double| unless_grazing::<T>(wrench, on_ellipsoid(&double, wrench, false))),
     // The three semi-axes.
     sizes | shape,
     size,
