@@ -191,6 +191,10 @@ impl<T: Real> Shortcuts<T> for DynSurface<T> {
     fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         each_surface!(self, shape => shape.shortcuts().posed_entry_in_double(line, near))
     }
+
+    fn is_moved(&self) -> bool {
+        each_surface!(self, shape => shape.shortcuts().is_moved())
+    }
 }
 
 impl<T: Real> SmoothSurface<T> for DynSurface<T> {

@@ -40,9 +40,9 @@ pub use local_surface::LocalSurface;
 #[cfg(feature = "alloc")]
 pub use mesh::{Mesh, MeshError};
 pub use shapes::*;
-pub use shortcuts::{NoShortcuts, Shortcuts};
 #[doc(hidden)]
-pub use shortcuts::{is_closed_convex, is_moved};
+pub use shortcuts::is_closed_convex;
+pub use shortcuts::{NoShortcuts, Shortcuts};
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{
     Corner, Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,

@@ -61,7 +61,10 @@ pub trait Shortcuts<T: Real>: Sized {
     /// `true` if a pose has moved the shape: moving a line rounds it once more, and point contact in a narrower type then asks
     /// double precision at angles that are a little less flat.
     #[doc(hidden)]
-    const MOVED: bool = false;
+    #[inline(always)]
+    fn is_moved(&self) -> bool {
+        false
+    }
 
     /// Where a force enters, for shapes that no line enters twice.
     ///
@@ -136,7 +139,11 @@ impl<T: Real> Shortcuts<T> for NoShortcuts {}
 
 impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for &S {
     const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
-    const MOVED: bool = S::MOVED;
+
+    #[inline(always)]
+    fn is_moved(&self) -> bool {
+        (**self).is_moved()
+    }
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
@@ -165,7 +172,10 @@ struct Within<S, F> {
 }
 
 impl<T: Real, S: Shortcuts<T>, F: Fn(&Entry<T>) -> bool> Shortcuts<T> for Within<S, F> {
-    const MOVED: bool = S::MOVED;
+    #[inline(always)]
+    fn is_moved(&self) -> bool {
+        self.whole.is_moved()
+    }
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
@@ -197,7 +207,11 @@ struct Moved<'a, T: Real, S> {
 
 impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for Moved<'_, T, S> {
     const CLOSED_CONVEX: bool = S::CLOSED_CONVEX;
-    const MOVED: bool = true;
+
+    #[inline(always)]
+    fn is_moved(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
@@ -239,14 +253,7 @@ pub(crate) fn entry_near(
     best.map(|(_, entry)| entry).filter(|[point, normal]| (point.sum() + normal.sum()).is_number())
 }
 
-/// [`Shortcuts::MOVED`] of the shortcuts of a surface, whose type has no name.
-#[doc(hidden)]
-#[inline(always)]
-pub const fn is_moved<T: Real, S: Shortcuts<T>>(_: &S) -> bool {
-    S::MOVED
-}
-
-/// [`Shortcuts::CLOSED_CONVEX`] of the same.
+/// [`Shortcuts::CLOSED_CONVEX`] of the shortcuts of a surface, whose type has no name.
 #[doc(hidden)]
 #[inline(always)]
 pub const fn is_closed_convex<T: Real, S: Shortcuts<T>>(_: &S) -> bool {

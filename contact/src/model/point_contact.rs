@@ -3,7 +3,7 @@
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{hypotenuse, in_range, larger, largest};
 use fingertip_surfaces::{
-    ActiveSurface, BadShape, ClosestApproach, ForceLine, ForceParts, Shortcuts, is_closed_convex, is_moved,
+    ActiveSurface, BadShape, ClosestApproach, ForceLine, ForceParts, Shortcuts, is_closed_convex,
 };
 use fingertip_wrench::{
     ContactForce, Line, LineOfAction, NoLineOfAction, Real, TangentialForce, Wrench, stored,
@@ -63,8 +63,8 @@ pub(crate) fn flat<T: Real>() -> T {
 
 /// The same on a surface: higher in a narrower type where a pose has moved the shape, which rounds the line once more.
 #[inline(always)]
-pub(super) fn flat_on<T: Real, S: Shortcuts<T>>(shortcuts: &S) -> T {
-    if is_asked_again::<T>() && is_moved(shortcuts) { T::literal(0.45) } else { flat() }
+pub(super) fn flat_on<T: Real>(shortcuts: &impl Shortcuts<T>) -> T {
+    if is_asked_again::<T>() && shortcuts.is_moved() { T::literal(0.45) } else { flat() }
 }
 
 impl<T: Real> PointContact<T> {
@@ -248,8 +248,7 @@ impl<T: Real> PointContact<T> {
         let shortcuts = surface.shortcuts();
         let entry = shortcuts.sole_entry(&push)?;
         let steep = entry.incidence_squared >= least_steepness
-            && (!is_moved(&shortcuts)
-                || entry.incidence_squared >= flat_on::<T, _>(&shortcuts).whole_power(2));
+            && (!shortcuts.is_moved() || entry.incidence_squared >= flat_on(&shortcuts).whole_power(2));
         (entry.active && steep).then(|| (contact_at(wrench, entry.point, entry.normal), entry.parts))
     }
 

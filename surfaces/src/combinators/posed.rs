@@ -144,7 +144,6 @@ struct InPlace<'a, T: Real, S, M> {
 
 impl<T: Real, S: ActiveSurface<T>, M: Shortcuts<T>> Shortcuts<T> for InPlace<'_, T, S, M> {
     const CLOSED_CONVEX: bool = M::CLOSED_CONVEX;
-    const MOVED: bool = M::MOVED;
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
@@ -169,6 +168,11 @@ impl<T: Real, S: ActiveSurface<T>, M: Shortcuts<T>> Shortcuts<T> for InPlace<'_,
 
     fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         self.moved.entry_in_double(line, near)
+    }
+
+    #[inline(always)]
+    fn is_moved(&self) -> bool {
+        true
     }
 }
 
