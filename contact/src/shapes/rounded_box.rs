@@ -5,7 +5,7 @@ use core::hint::select_unpredictable;
 
 #[cfg(feature = "batch")]
 use fingertip_surfaces::Entry;
-use fingertip_surfaces::numeric::vectors::{larger, largest, wide};
+use fingertip_surfaces::numeric::vectors::{larger, largest, length, wide};
 use fingertip_surfaces::{ForceLine, LocalSurface, RoundedBox, SmoothSurface, Sphere};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ use super::plane::on_plane;
 use super::sphere::{on_sphere, steeply_on_sphere};
 use crate::model::flat;
 use crate::soft_finger::closed_form::{is_pure_force_of, is_steady, soft_finger, told};
-use crate::soft_finger::double::{finely, spins_little};
+use crate::soft_finger::double::{finely, is_steady as is_steady_at};
 use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
 
 /// Faces, edges and corners that are tried before the long way is taken.
@@ -140,8 +140,9 @@ fn on_part<T: Real>(
     on_sphere(&Sphere::new(centre, rounding).ok()?, wrench).ok()
 }
 
-/// By Newton's method, and where that does not settle, by all parts: but for a pure force, by numbers that are rounded to so
-/// much of them, which either hits or misses.
+/// By Newton's method, and where that does not settle, by all parts. Of a pure force, by numbers that are rounded to so much of
+/// them, which either hits or misses, only a contact at an angle that rounding does not make: the root of it is what rounding
+/// makes of a line that touches.
 fn search<T: Real>(
     shape: &RoundedBox<T>,
     wrench: &Wrench<T>,
@@ -150,22 +151,24 @@ fn search<T: Real>(
 ) -> Result<SoftContact<T>, Search<T>> {
     let mut found = None;
     let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
-    let is_lost = found.is_none() && search == Search::Incomplete;
-    if is_lost && !is_pure_force_of(&wrench.force(), &wrench.torque(), epsilon) {
-        found = by_parts(shape, wrench);
+    if found.is_none() && search == Search::Incomplete {
+        let force = wrench.force();
+        let is_pure = is_pure_force_of(&force, &wrench.torque(), epsilon);
+        let least = if is_pure { epsilon.root() * length(&force) } else { T::zero() };
+        found = by_parts(shape, wrench).filter(|found| -force.dot(&found.normal) >= least);
     }
     found.ok_or(search)
 }
 
-/// In double precision if the type is narrower and the spin torque rules: then rounding decides between faces, edges and
-/// corners.
+/// In double precision if the type is narrower and the spin torque rules or the force meets it at a flat angle: then rounding
+/// decides between faces, edges and corners.
 fn on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
     wrench: &Wrench<T>,
     last: Option<&Vector3<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
     let found = search(shape, wrench, last, T::EPSILON);
-    finely(found, spins_little(wrench, shape.rounding()), wrench, |wrench| {
+    finely(found, is_steady_at(wrench, shape.rounding()), wrench, |wrench| {
         rounded_box_in_double(shape, wrench, last.map(wide).as_ref())
     })
 }

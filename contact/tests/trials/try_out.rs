@@ -198,8 +198,9 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
                     count.none += 1;
                     return None;
                 };
-                // Rounding of the wrench took the line off the shape: which of two places is touched is in no digit.
-                if matches!(reason, NoContact::Ambiguous { .. }) && load.grazes(&truth) <= goal::<T>() {
+                // Rounding of the wrench took the line off the shape: where it is touched is in no digit.
+                let is_off = matches!(reason, NoContact::Ambiguous { .. } | NoContact::Misses { .. });
+                if is_off && load.grazes(&truth) <= goal::<T>() {
                     count.unjudged += 1;
                     return None;
                 }
