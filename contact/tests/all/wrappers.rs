@@ -110,3 +110,32 @@ fn a_gap_that_is_not_known_is_not_accepted_and_said() {
     let known = PointContact::new(0.1).unwrap().resolve(&wrench, &sphere).into_result().unwrap_err();
     assert!(known.to_string().starts_with("the line of action misses the surface by 0.00000"), "{known}");
 }
+
+/// A posed shape that is chosen at run time answers to the bit as by its type, at every angle.
+#[test]
+fn a_pose_chosen_at_run_time() {
+    fn same<S: SoftFingerSurface<f32> + Copy + Into<DynSurface<f32>>>(shape: S) {
+        let mut random = Pcg64Mcg::seed_from_u64(31);
+        let mut vector = |size: f32| Vector3::<f32>::from_fn(|_, _| random.random_range(-size..size));
+        let (mut met, mut flat) = (0, 0);
+        for _ in 0..2000 {
+            let turn = Rotation3::from_scaled_axis(vector(3.0));
+            let pose = RigidTransform::<f32>::from_parts(turn, vector(0.5));
+            let typed = Posed::new(shape, pose);
+            let chosen = DynSurface::Posed(Box::new(Posed::new(shape.into(), pose)));
+            let wrench = Wrench::from_force_at(&pose.transform_point(&vector(0.7)), vector(2.0));
+            let model = PointContact::new(0.0).unwrap();
+            let [by_type, at_run_time] = [model.resolve(&wrench, &typed), model.resolve(&wrench, &chosen)];
+            if let Resolution::Contact(contact) = by_type {
+                assert_eq!(by_type, at_run_time);
+                met += 1;
+                flat += usize::from((0.3..0.45).contains(&contact.incidence()));
+            }
+        }
+        assert!(met > 200 && flat > 20, "{met} {flat}");
+    }
+    let (along, across) = (Vector3::new(0.9, 0.0, 0.0), Vector3::new(0.0, 0.6, 0.6));
+    same(Rectangle::new(Vector3::new(0.0, 0.0, 0.1), along, across).unwrap());
+    same(Ellipsoid::new(Vector3::new(1.0, 0.7, 0.4)).unwrap());
+    same(Paraboloid::new([1.0, 0.6]).unwrap());
+}
