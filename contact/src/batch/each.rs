@@ -156,14 +156,14 @@ fn sweep<T: Real>(
 #[cold]
 #[inline(never)]
 fn entered<T: Real, S: ActiveSurface<T>>(wrench: &Wrench<T>, surface: &S) -> Row<T> {
-    let nothing = (Vector3::zeros(), Vector3::zeros(), T::GREATEST);
+    let no_answer = (Vector3::zeros(), Vector3::zeros(), T::GREATEST);
     let in_range = ForceLine::new(wrench, ForceLine::least_squared());
-    let (Some(_), Ok(model)) = (in_range, PointContact::new(T::zero())) else { return nothing };
+    let (Some(_), Ok(model)) = (in_range, PointContact::new(T::zero())) else { return no_answer };
     match model.resolve(wrench, surface) {
         Resolution::Contact(contact) => (contact.point, contact.normal, T::zero()),
         Resolution::NoContact(NoContact::Misses { closest: Some(closest) }) => {
             (closest.point, closest.normal, closest.gap)
         }
-        Resolution::NoContact(_) => nothing,
+        Resolution::NoContact(_) => no_answer,
     }
 }

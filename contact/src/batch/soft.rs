@@ -76,7 +76,7 @@ impl<T: Real> SoftFinger<T> {
             [px, py, pz, nx, ny, nz, spin_torque],
             #[inline(always)]
             |wrench| {
-                let push = ForceLine::new(wrench, self.least_squared());
+                let push = ForceLine::new(wrench, self.least_squared);
                 let contact = push.and_then(|push| surface.sole_soft_contact(&push));
                 let told = contact.is_some_and(|contact| contact.active & is_in_range(&contact));
                 (contact.map_or_else(nothing, |found| (found.point, found.normal, found.spin_torque)), told)

@@ -111,7 +111,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         let pose = self.sensor_from_shape();
         let inside = pose.rotation().tr_mul(&(point - pose.origin()));
-        placed(self.inner().patch(&inside)?, pose)
+        placed(self.inner().patch(&inside)?, Some(pose))
     }
 
     /// Of the shape in its pose. A pose of a pose keeps what was found.

@@ -48,8 +48,7 @@ pub(super) fn on_ellipsoid<T: Real>(
         let (f, m) = (f * scale, m * scale);
         // As on the sphere: what is exactly zero before stretching shall be so after it.
         let power = force.dot(&torque) * (b.x * b.y * b.z);
-        let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power);
-        solved.grazing(&f, &m).map_or(Ok(solved), Err)
+        OnUnitSphere::new(&f, &m, f.norm_squared(), power).unless_grazing(&f, &m)
     };
     let solved = solved.map_err(|pair| pair.map(|point| point.component_mul(&semi_axes)))?;
     let point = solved.point();

@@ -90,14 +90,19 @@ fn steeply_on_elliptic_cylinder<T: Real>(
     push: &ForceLine<T>,
 ) -> Option<SoftContact<T>> {
     let side = steeply_on_side(shape, push);
-    let (half, is_capped) = shape.half_length();
+    let half = match shape.ends() {
+        CylinderEnds::Unbounded => return side,
+        CylinderEnds::Open(half) => {
+            return side.map(|contact| SoftContact { active: contact.point.z.abs() <= half, ..contact });
+        }
+        CylinderEnds::Capped(half) => half,
+    };
     let [a, b] = shape.semi_axes();
-    let hair = (half + a + b) * (T::literal(64.0) * T::EPSILON);
-    let is_on_side = |contact: &SoftContact<T>| !is_capped | (contact.point.z.abs() <= half - hair);
+    let hair = hair([a, b], half);
     if let Some(contact) = side
-        && is_on_side(&contact)
+        && contact.point.z.abs() <= half - hair
     {
-        return Some(SoftContact { active: contact.point.z.abs() <= half, ..contact });
+        return Some(contact);
     }
     let (force, torque) = (push.force(), push.torque());
     let normal = -Vector3::z() * force.z.signum();
@@ -109,8 +114,12 @@ fn steeply_on_elliptic_cylinder<T: Real>(
     let (x, y) = (away.x * ka, away.y * kb);
     let steep = is_steep(push, force.z, spin_torque * (ka + kb));
     let inside = x * x + y * y <= inner * inner.max(T::zero());
-    let found = is_capped & steep & inside;
-    found.then(|| SoftContact { point: away + normal * half, normal, spin_torque, active: true })
+    (steep & inside).then(|| SoftContact { point: away + normal * half, normal, spin_torque, active: true })
+}
+
+/// As near to an edge as rounding brings a contact.
+fn hair<T: Real>([a, b]: [T; 2], half: T) -> T {
+    (half + a + b) * (T::literal(64.0) * T::EPSILON)
 }
 
 /// On the side, unbounded, for a force that presses at no flat angle and a spin torque that does not rule.
@@ -131,7 +140,9 @@ fn steeply_on_side<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) ->
     let root_squared = squared - turning * turning;
     // Not where the torque hides the force, and the root loses digits. False for a NaN, too.
     let wide = root_squared >= squared * T::literal(0.06);
-    let is_told = wide & (squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST);
+    if !(wide & (squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST)) {
+        return None;
+    }
     let (root, inverse) = (root_squared.root(), T::one() / squared);
     let (x, y) = ((fy * turning - fx * root) * inverse, (-fx * turning - fy * root) * inverse);
     let (gx, gy) = (x * ka, y * kb);
@@ -147,10 +158,12 @@ fn steeply_on_side<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) ->
     let twist = spin_torque * (bend * bend * support);
     let is_steady = is_steep(push, pressing, twist);
     let point = Vector3::new(x * a, y * b, height);
-    let normal = Vector3::new(nx, ny, T::zero());
-    // One choice at the end, so that a loop over many is one without a branch.
-    let is_told = is_told & is_steady & (pressing > T::zero()) & height.is_number();
-    is_told.then_some(SoftContact { point, normal, spin_torque, active: true })
+    (is_steady & (pressing > T::zero()) & height.is_number()).then(|| SoftContact {
+        point,
+        normal: Vector3::new(nx, ny, T::zero()),
+        spin_torque,
+        active: true,
+    })
 }
 
 /// In double precision if the type is narrower and rounding decides between the side and an end.
@@ -182,8 +195,7 @@ fn surely_beside_edges<T: Real>(
     if !is_capped {
         return found;
     }
-    let [a, b] = shape.semi_axes();
-    let hair = (half + a + b) * (T::literal(64.0) * T::EPSILON);
+    let hair = hair(shape.semi_axes(), half);
     let on_edge = |point: &Vector3<T>| (point.z.abs() - half).abs() <= hair;
     let between = |point: &Vector3<T>| point.z.abs() <= half;
     surely_on_side(wrench, pose, side_of(shape), on_edge, between, found)

@@ -1,15 +1,15 @@
 //! A straight side or the edge that ends it, where rounding decides.
 
 use fingertip_surfaces::LocalSurface;
-use fingertip_surfaces::numeric::mixed_precision::{is_asked_again, is_refined_in_double};
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
 use super::patch::Digits;
-use super::placed::{Patch, placed};
+use super::placed::placed;
 use super::refined::settled_on;
 use super::three::rounded;
+use super::tip::is_found_anew;
 use crate::{Search, SoftContact};
 
 /// How far a normal may be from that of the side for it to be one that rounding made of it.
@@ -34,12 +34,11 @@ pub(crate) fn surely_on_side<T: Real>(
     holds: impl Fn(&Vector3<T>) -> bool,
     found: Result<SoftContact<T>, Search<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    if is_asked_again::<T>() || !is_refined_in_double::<T>() || T::CARRIES_MORE {
+    if !is_found_anew::<T>() {
         return found;
     }
     let contact = found?;
-    let patch = Patch::from(side);
-    let Some(patch) = pose.map_or(Some(patch), |pose| placed(patch, pose)) else { return Ok(contact) };
+    let Some(patch) = placed(side.into(), pose) else { return Ok(contact) };
     let point = wide(&contact.point);
     let normal = rounded(patch.seen::<f64>(point.into()).normal);
     let off = (normal - wide(&contact.normal)).amax();

@@ -56,7 +56,7 @@ use crate::model::flat;
 pub struct SoftFinger<T: Real> {
     pub(super) least_force: T,
     /// The least square of a force that takes the short way.
-    pub(super) least_squared: T,
+    pub(crate) least_squared: T,
     pub(super) greatest_friction: Option<T>,
     pub(super) torque_arm: Option<T>,
     pub(super) torque_noise: T,
@@ -150,13 +150,6 @@ impl<T: Real> SoftFinger<T> {
         let good = torque_noise >= T::zero() && torque_noise.is_number();
         BadShape::check("soft finger", "torque noise", "finite and not negative", good)
             .map(|()| Self { torque_noise, ..self }.taking_the_short_way())
-    }
-
-    /// The least square of a force that takes the short way.
-    #[cfg(feature = "batch")]
-    #[inline]
-    pub(crate) const fn least_squared(&self) -> T {
-        self.least_squared
     }
 
     /// How much torque along a force may be noise \[N·m\].

@@ -60,8 +60,9 @@ fn rows<W: Wide>(matrix: &Matrix3<f64>, v: Three<W>) -> Three<W> {
     [row(m.m11, m.m12, m.m13), row(m.m21, m.m22, m.m23), row(m.m31, m.m32, m.m33)]
 }
 
-/// What a pose of its shape makes of a patch.
-pub(crate) fn placed<T: Real>(patch: Patch, pose: &RigidTransform<T>) -> Option<Patch> {
+/// What a pose of its shape, if it has one, makes of a patch.
+pub(crate) fn placed<T: Real>(patch: Patch, pose: Option<&RigidTransform<T>>) -> Option<Patch> {
+    let Some(pose) = pose else { return Some(patch) };
     // Of a pose of a pose nothing is told.
     let Patch { surface, pose: None } = patch else { return None };
     let rotation = Rotation3::from_matrix_unchecked(pose.rotation().map(Real::to_f64));

@@ -38,19 +38,24 @@ pub(crate) fn surely_on_cone<T: Real, S: SoftFingerSurface<T>>(
     holds: impl Fn(&Vector3<T>) -> bool,
     found: Result<SoftContact<T>, Search<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    let told = is_asked_again::<T>() || !is_refined_in_double::<T>() || T::CARRIES_MORE;
-    if told || matches!(found, Err(Search::Complete)) {
+    if !is_found_anew::<T>() || matches!(found, Err(Search::Complete)) {
         return found;
     }
     let (side, tip) = side();
-    let in_place = |patch| pose.map_or(Some(patch), |pose| placed(patch, pose));
-    let Some(patch) = in_place(side.into()) else { return found };
+    let Some(patch) = placed(side.into(), pose) else { return found };
     let part_at = |point: &Vector3<T>| {
         let inside = pose.map_or(*point, |pose| point_inside(pose, point));
-        in_place(shape.patch(&inside)?)
+        placed(shape.patch(&inside)?, pose)
     };
     let holds = |point: &Vector3<f64>| holds(&patch.point_inside(point).map(T::literal));
     surely(wrench, &patch, tip, &part_at, &holds, found)
+}
+
+/// Whether what rounding decides is found anew with twice the digits: in double precision, of a number that carries no more than
+/// a value.
+#[inline(always)]
+pub(super) fn is_found_anew<T: Real>() -> bool {
+    is_refined_in_double::<T>() && !is_asked_again::<T>() && !T::CARRIES_MORE
 }
 
 /// Compiled once for every shape.

@@ -64,7 +64,7 @@ impl<T: Real> OnUnitSphere<T> {
         let (f, m) = (Vector3::from(f.map(Twofold::value)), Vector3::from(m.map(Twofold::value)));
         let squares = [force.value(), torque.value()];
         let solved = Self::with_difference(&f, &m, squares, torque.minus(force).value(), power.value());
-        solved.grazing(&f, &m).map_or(Ok(solved), Err)
+        solved.unless_grazing(&f, &m)
     }
 
     /// With `|f|²` and `|m|²`, and `σ` apart from them.
@@ -113,6 +113,13 @@ impl<T: Real> OnUnitSphere<T> {
     pub(crate) fn grazing(&self, f: &Vector3<T>, m: &Vector3<T>) -> Option<[Vector3<T>; 2]> {
         let least = (T::EPSILON * T::literal(4.0)).whole_power(2) * self.force;
         (self.misses && !(self.along * self.along > least)).then(|| self.pair(f, m))
+    }
+
+    /// # Errors
+    /// [`grazing`](Self::grazing).
+    #[inline(always)]
+    pub(crate) fn unless_grazing(self, f: &Vector3<T>, m: &Vector3<T>) -> Result<Self, [Vector3<T>; 2]> {
+        self.grazing(f, m).map_or(Ok(self), Err)
     }
 
     #[cold]

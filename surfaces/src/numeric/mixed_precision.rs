@@ -18,8 +18,8 @@ pub fn is_asked_again<T: Real>() -> bool {
     cfg!(feature = "mixed-precision") && is_narrow::<T>() && !T::CARRIES_MORE
 }
 
-/// Whether a contact is refined with numbers of double precision, or with twice the digits of its type: in double precision itself always, in a narrower
-/// type with the feature `mixed-precision`.
+/// Whether a contact is refined with numbers of double precision, or with twice the digits of its type: in double precision
+/// itself always, in a narrower type with the feature `mixed-precision`.
 #[inline(always)]
 pub fn is_refined_in_double<T: Real>() -> bool {
     cfg!(feature = "mixed-precision") || !is_narrow::<T>()
