@@ -54,13 +54,19 @@ impl<T: Real> ForceLine<T> {
     #[inline]
     #[must_use]
     pub fn new(wrench: &Wrench<T>, least_squared: T) -> Option<Self> {
+        let (line, is_in_range) = Self::tried(wrench, least_squared);
+        is_in_range.then_some(line)
+    }
+
+    /// The same of any force, and whether it is in range: if not, nothing that the line says holds. For loops without a
+    /// branch.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn tried(wrench: &Wrench<T>, least_squared: T) -> (Self, bool) {
         let force = wrench.force();
         let squared = force.norm_squared();
-        ((squared >= least_squared) & !(squared > Self::greatest_squared())).then(|| Self {
-            force,
-            torque: wrench.torque(),
-            squared,
-        })
+        let is_in_range = (squared >= least_squared) & !(squared > Self::greatest_squared());
+        (Self { force, torque: wrench.torque(), squared }, is_in_range)
     }
 
     /// Along a line, with a force of 1 N.

@@ -61,8 +61,10 @@ pub(crate) fn run<T: Real, S: Entering<T>>(
         [px, py, pz, nx, ny, nz, gap],
         #[inline(always)]
         |wrench| {
-            let entry = ForceLine::new(wrench, least).and_then(|push| surface.enters(&push));
-            let told = entry.is_some_and(|entry| entry.active & (entry.incidence_squared >= least_steepness));
+            let (push, is_in_range) = ForceLine::tried(wrench, least);
+            let entry = surface.enters(&push);
+            let told = is_in_range
+                & entry.is_some_and(|entry| entry.active & (entry.incidence_squared >= least_steepness));
             (entry.map_or_else(nothing, |entry| (entry.point, entry.normal, T::zero())), told)
         },
         &|wrench| entered(wrench, surface),

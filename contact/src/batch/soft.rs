@@ -5,7 +5,7 @@ use fingertip_wrench::{Real, Wrench};
 
 use super::Wrenches;
 use super::each::{Row, each, nothing};
-use crate::soft_finger::resolve::is_in_range;
+use crate::soft_finger::resolve::is_in_range as is_number;
 use crate::{ContactModel, SoftFinger, SoftFingerSurface};
 
 /// Where the contacts of soft fingers are written: one slice per component.
@@ -76,9 +76,9 @@ impl<T: Real> SoftFinger<T> {
             [px, py, pz, nx, ny, nz, spin_torque],
             #[inline(always)]
             |wrench| {
-                let push = ForceLine::new(wrench, self.least_squared);
-                let contact = push.and_then(|push| surface.sole_soft_contact(&push));
-                let told = contact.is_some_and(|contact| contact.active & is_in_range(&contact));
+                let (push, is_in_range) = ForceLine::tried(wrench, self.least_squared);
+                let contact = surface.sole_soft_contact(&push);
+                let told = is_in_range & contact.is_some_and(|found| found.active & is_number(&found));
                 (contact.map_or_else(nothing, |found| (found.point, found.normal, found.spin_torque)), told)
             },
             &|wrench| alone(self, wrench, surface),

@@ -11,7 +11,7 @@ use super::sphere::{on_sphere, steeply_on_ball};
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, scale};
-use crate::soft_finger::closed_form::{is_steady, soft_finger, sole, told};
+use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double;
 use crate::soft_finger::double::{finely, spins_little};
 use crate::soft_finger::refined::refined;
@@ -95,8 +95,10 @@ fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Optio
         None => -axis * push.force().dot(&axis).signum(),
     };
     let contact = steeply_on_ball(&(centre + end * half), radius, T::one() / radius, push)?;
-    let lever = radius * T::literal(0.5);
-    (contact.normal.dot(&end) >= T::zero() && is_steady(push, &contact, lever)).then_some(contact)
+    // It presses steeply, as on any ball; and the spin torque does not rule.
+    let (lever, spin_torque) = (radius * T::literal(0.5), contact.spin_torque);
+    let is_steady = spin_torque * spin_torque <= push.squared() * (lever * lever);
+    ((contact.normal.dot(&end) >= T::zero()) & is_steady).then_some(contact)
 }
 
 soft_finger!(

@@ -89,20 +89,12 @@ fn steeply_on_elliptic_cylinder<T: Real>(
     shape: &EllipticCylinder<T>,
     push: &ForceLine<T>,
 ) -> Option<SoftContact<T>> {
-    let side = steeply_on_side(shape, push);
-    let half = match shape.ends() {
-        CylinderEnds::Unbounded => return side,
-        CylinderEnds::Open(half) => {
-            return side.map(|contact| SoftContact { active: contact.point.z.abs() <= half, ..contact });
-        }
-        CylinderEnds::Capped(half) => half,
-    };
-    let [a, b] = shape.semi_axes();
+    let ([a, b], [ka, kb], [active_to, half]) = (shape.semi_axes(), shape.curvatures(), shape.heights());
     let hair = hair([a, b], half);
-    if let Some(contact) = side
+    if let Some(contact) = steeply_on_side(shape, push)
         && contact.point.z.abs() <= half - hair
     {
-        return Some(contact);
+        return Some(SoftContact { active: contact.point.z.abs() <= active_to, ..contact });
     }
     let (force, torque) = (push.force(), push.torque());
     let normal = -Vector3::z() * force.z.signum();
@@ -110,10 +102,9 @@ fn steeply_on_elliptic_cylinder<T: Real>(
     let spin_torque = -force.dot(&torque) * share;
     let away = (torque - normal.cross(&force) * half).cross(&normal) * share;
     let inner = T::one() - hair / smaller(a, b);
-    let [ka, kb] = shape.curvatures();
     let (x, y) = (away.x * ka, away.y * kb);
     let steep = is_steep(push, force.z, spin_torque * (ka + kb));
-    let inside = x * x + y * y <= inner * inner.max(T::zero());
+    let inside = (inner > T::zero()) & (x * x + y * y <= inner * inner);
     (steep & inside).then(|| SoftContact { point: away + normal * half, normal, spin_torque, active: true })
 }
 
@@ -191,8 +182,8 @@ fn surely_beside_edges<T: Real>(
     pose: Option<&RigidTransform<T>>,
     found: Result<SoftContact<T>, Search<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    let (half, is_capped) = shape.half_length();
-    if !is_capped {
+    let [_, half] = shape.heights();
+    if half >= T::GREATEST {
         return found;
     }
     let hair = hair(shape.semi_axes(), half);
@@ -256,7 +247,7 @@ crate::batch::each::entering!(EllipticCylinder, |cylinder, push| Some(entry_of_e
 #[inline(always)]
 fn entry_of_elliptic<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) -> Entry<T> {
     let ([ka, kb], f) = (shape.curvatures(), push.force());
-    let (half, is_capped) = shape.half_length();
+    let [active_to, half] = shape.heights();
     let s = f.cross(&push.torque()) * (T::one() / push.squared());
     let (fx, fy, sx, sy) = (f.x * ka, f.y * kb, s.x * ka, s.y * kb);
     let (a, b) = (fx * fx + fy * fy, sx * fx + sy * fy);
@@ -266,7 +257,7 @@ fn entry_of_elliptic<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) 
     let end = half.copysign(-f.z);
     let to_end = (end - s.z) / f.z;
     let (x, y) = (sx + fx * to_end, sy + fy * to_end);
-    let through_end = is_capped & (x * x + y * y < T::one());
+    let through_end = (half < T::GREATEST) & (x * x + y * y < T::one());
     let along = select_unpredictable(through_end, to_end, -(b + root) / a);
     let z = select_unpredictable(through_end, end, s.z + f.z * along);
     let point = Vector3::new(s.x + f.x * along, s.y + f.y * along, z);
@@ -277,12 +268,12 @@ fn entry_of_elliptic<T: Real>(shape: &EllipticCylinder<T>, push: &ForceLine<T>) 
     let on_side = select_unpredictable(through_end, T::zero(), inverse);
     let on_end = select_unpredictable(through_end, T::one().copysign(end), T::zero());
     // Beside a closed one the line may enter the side that it does not have.
-    let is_there = through_end | !is_capped | (z.abs() <= half);
+    let is_there = through_end | (z.abs() <= half);
     Entry {
         point,
         normal: Vector3::new(gx * on_side, gy * on_side, on_end),
         incidence_squared: select_unpredictable(is_there, pressing / push.squared(), T::zero()),
         parts: None,
-        active: z.abs() <= half,
+        active: z.abs() <= active_to,
     }
 }

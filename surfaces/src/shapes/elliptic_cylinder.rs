@@ -63,10 +63,10 @@ pub enum CylinderEnds<T> {
 pub struct EllipticCylinder<T: Real> {
     semi_axes: [T; 2],
     curvatures: [T; 2],
-    ends: CylinderEnds<T>,
-    /// The half length, or the greatest number, and whether it is closed: of `ends`, without a choice.
-    half: T,
-    is_capped: bool,
+    /// The heights \[m\] to which an open side is active and at which flat ends close it, the greatest number where it is not
+    /// so: lengths and no choice, so that columns of contacts are met one like the other.
+    active_to: T,
+    capped_at: T,
 }
 
 impl<T: Real> EllipticCylinder<T> {
@@ -84,12 +84,12 @@ impl<T: Real> EllipticCylinder<T> {
         if let CylinderEnds::Open(half) | CylinderEnds::Capped(half) = ends {
             BadShape::check_length(shape, "half length", half)?;
         }
-        let (half, is_capped) = match ends {
-            CylinderEnds::Unbounded => (T::GREATEST, false),
-            CylinderEnds::Open(half) => (half, false),
-            CylinderEnds::Capped(half) => (half, true),
+        let [active_to, capped_at] = match ends {
+            CylinderEnds::Unbounded => [T::GREATEST; 2],
+            CylinderEnds::Open(half) => [half, T::GREATEST],
+            CylinderEnds::Capped(half) => [T::GREATEST, half],
         };
-        Ok(Self { semi_axes, curvatures: [T::one() / a, T::one() / b], ends, half, is_capped })
+        Ok(Self { semi_axes, curvatures: [T::one() / a, T::one() / b], active_to, capped_at })
     }
 
     /// The semi-axes along x and y \[m\].
@@ -109,23 +109,29 @@ impl<T: Real> EllipticCylinder<T> {
     /// How it ends.
     #[inline]
     #[must_use]
-    pub const fn ends(&self) -> CylinderEnds<T> {
-        self.ends
+    pub fn ends(&self) -> CylinderEnds<T> {
+        if self.capped_at < T::GREATEST {
+            CylinderEnds::Capped(self.capped_at)
+        } else if self.active_to < T::GREATEST {
+            CylinderEnds::Open(self.active_to)
+        } else {
+            CylinderEnds::Unbounded
+        }
     }
 
-    /// The half length \[m\], the greatest number if it has none, and whether it is closed there: what
-    /// [`ends`](Self::ends) say, without a choice.
+    /// The heights \[m\] to which an open side is active and at which flat ends close it, the greatest number where it is
+    /// not so: what [`ends`](Self::ends) say, without a choice.
     #[inline]
     #[doc(hidden)]
-    pub const fn half_length(&self) -> (T, bool) {
-        (self.half, self.is_capped)
+    pub const fn heights(&self) -> [T; 2] {
+        [self.active_to, self.capped_at]
     }
 
     /// The same in double precision.
     #[doc(hidden)]
     #[must_use]
     pub fn in_double(&self) -> Option<EllipticCylinder<f64>> {
-        let ends = match self.ends {
+        let ends = match self.ends() {
             CylinderEnds::Unbounded => CylinderEnds::Unbounded,
             CylinderEnds::Open(half) => CylinderEnds::Open(half.to_f64()),
             CylinderEnds::Capped(half) => CylinderEnds::Capped(half.to_f64()),
@@ -135,10 +141,7 @@ impl<T: Real> EllipticCylinder<T> {
 
     #[inline]
     fn is_active(&self, height: T) -> bool {
-        match self.ends {
-            CylinderEnds::Open(half) => height.abs() <= half,
-            _ => true,
-        }
+        height.abs() <= self.active_to
     }
 
     /// Of a point scaled to the unit circle. Once where the smallest programs are asked for.
@@ -193,7 +196,7 @@ impl<T: Real> EllipticCylinder<T> {
     fn distance(&self, point: &Vector3<T>) -> Distance<T> {
         let point = &within_range(point);
         let side = self.side_distance(point);
-        let CylinderEnds::Capped(half) = self.ends else { return side };
+        let CylinderEnds::Capped(half) = self.ends() else { return side };
         let beyond = point.z.abs() - half;
         let end = Vector3::new(T::zero(), T::zero(), T::one().copysign(point.z));
         if side.distance <= T::zero() || beyond <= T::zero() {
@@ -209,7 +212,7 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
     fn crossings(&self, line: &Line<T>, visit: impl FnMut(Crossing<T>)) {
         let (start, along) = foot(line, &Vector3::zeros());
         let Some(mut inside) = self.inside_side(line, &start) else { return };
-        if let CylinderEnds::Capped(half) = self.ends {
+        if let CylinderEnds::Capped(half) = self.ends() {
             let (z, rise) = (start.z, line.direction.z);
             let Some(capped) = inside
                 .below(half, z, rise, Vector3::z(), true)
@@ -224,7 +227,7 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
 
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let [a, b] = self.semi_axes;
-        if let CylinderEnds::Capped(half) = self.ends {
+        if let CylinderEnds::Capped(half) = self.ends() {
             let reach = hypotenuse(half, a.max(b));
             return Some(to_convex(line, &Vector3::zeros(), reach, |point| self.distance(point)));
         }
@@ -259,7 +262,7 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
     }
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
-        match self.ends {
+        match self.ends() {
             CylinderEnds::Capped(_) => self.distance(point).normal,
             _ => self.side_normal(point.x * self.curvatures[0], point.y * self.curvatures[1]),
         }
@@ -269,7 +272,7 @@ impl<T: Real> ActiveSurface<T> for EllipticCylinder<T> {
     fn contains(&self, point: &Vector3<T>) -> bool {
         let [a, b] = self.curvatures;
         let (x, y) = (point.x * a, point.y * b);
-        let within = match self.ends {
+        let within = match self.ends() {
             CylinderEnds::Unbounded => true,
             CylinderEnds::Open(half) | CylinderEnds::Capped(half) => point.z.abs() < half,
         };
@@ -289,7 +292,7 @@ impl<T: Real> Shortcuts<T> for EllipticCylinder<T> {
         let (x, y) = (Twofold::new(point.x).over(a), Twofold::new(point.y).over(b));
         let excess = x.squared().plus(y.squared()).minus(Twofold::new(T::one())).value();
         let side = excess / (hypotenuse(x.value() * ca, y.value() * cb) * T::literal(2.0));
-        match self.ends {
+        match self.ends() {
             CylinderEnds::Capped(half) if !((point.z.abs() - half).abs() > side.abs()) => {
                 point.z.abs() - half
             }
@@ -347,7 +350,7 @@ stored! {
     EllipticCylinder<T>, [T: Real],
     |cylinder| {
         semi_axes_m: [T; 2] = cylinder.semi_axes,
-        ends_m: CylinderEnds<T> = cylinder.ends,
+        ends_m: CylinderEnds<T> = cylinder.ends(),
     },
     EllipticCylinder::new(semi_axes_m, ends_m)
 }
