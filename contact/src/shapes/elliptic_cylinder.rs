@@ -33,7 +33,7 @@ fn on_elliptic_cylinder<T: Real>(
     wrench: &Wrench<T>,
 ) -> Result<SoftContact<T>, Search<T>> {
     let axes = shape.semi_axes();
-    let reciprocals = axes.map(|a| T::one() / a);
+    let reciprocals = shape.curvatures();
     let mut side = None;
     on_cylinder(axes, reciprocals, &wrench.force(), &wrench.torque(), |contact| side = Some(contact));
     let within = |half: T| move |contact: &SoftContact<T>| contact.point.z.abs() <= half;
@@ -44,8 +44,9 @@ fn on_elliptic_cylinder<T: Real>(
             .ok_or(Search::Complete),
         CylinderEnds::Capped(half) => {
             let on_end = |normal| on_elliptic_end(axes, reciprocals, &normal, half, wrench);
-            let found =
-                side.filter(within(half)).or_else(|| on_end(Vector3::z())).or_else(|| on_end(-Vector3::z()));
+            let found = side
+                .filter(within(half))
+                .or_else(|| [Vector3::z(), -Vector3::z()].into_iter().find_map(on_end));
             sole(found, wrench)
         }
     }

@@ -1,5 +1,6 @@
 //! Solids of revolution with flat ends: closed cylinder, cone, truncated cone.
 
+use fingertip_surfaces::numeric::moved::point_inside;
 use fingertip_surfaces::numeric::vectors::{length, wide};
 use fingertip_surfaces::{ActiveSurface, CappedCylinder, ForceLine, Frustum, LocalSurface, SmoothSurface};
 use fingertip_wrench::{Real, RigidTransform, Wrench};
@@ -13,7 +14,8 @@ use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
 use crate::soft_finger::edge::surely_on_side;
 use crate::soft_finger::rim::on_rim;
-use crate::soft_finger::tip::surely_on_cone;
+use crate::soft_finger::sure_rim::{Rim, surely_on_rim};
+use crate::soft_finger::tip::{is_found_anew, surely_on_cone};
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on a frustum: of the side, by the closed form of its cone or cylinder; of
@@ -182,17 +184,30 @@ fn surely_on_frustum<T: Real>(
     surely_beside_edges(shape, wrench, pose, found)
 }
 
-/// The same where rounding decides between the side and an edge.
+/// The same where rounding decides between the side and an edge, or where on an edge the contact is.
 fn surely_beside_edges<T: Real>(
     solid: &Frustum<T>,
     wrench: &Wrench<T>,
     pose: Option<&RigidTransform<T>>,
     found: Result<SoftContact<T>, Search<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
+    if !is_found_anew::<T>() {
+        return found;
+    }
     let side = side_of_frustum(solid, &solid.base_centre());
     let (on_edge, between) =
         (|point: &Vector3<T>| is_on_edge(solid, point), |point: &Vector3<T>| is_between_ends(solid, point));
-    surely_on_side(wrench, pose, side, on_edge, between, found)
+    let found = surely_on_side(wrench, pose, side, on_edge, between, found)?;
+    let inside = pose.map_or(found.point, |pose| point_inside(pose, &found.point));
+    if !is_on_edge(solid, &inside) {
+        return Ok(found);
+    }
+    let is_above = (inside - solid.base_centre()).dot(&solid.axis()) > solid.height() * T::literal(0.5);
+    let (height, radius) =
+        if is_above { (solid.height(), solid.top_radius()) } else { (T::zero(), solid.base_radius()) };
+    let axis = wide(&solid.axis());
+    let centre = wide(&solid.base_centre()) + axis * (height.to_f64() / axis.norm());
+    Ok(surely_on_rim(wrench, pose, &Rim { centre, axis, radius: radius.to_f64() }, found))
 }
 
 fn capped_in_double<T: Real>(

@@ -14,6 +14,7 @@ pub(crate) mod resolve;
 pub(crate) mod rim;
 pub(crate) mod search;
 pub(crate) mod solution;
+pub(crate) mod sure_rim;
 mod three;
 pub(crate) mod tip;
 pub(crate) mod unit_sphere;

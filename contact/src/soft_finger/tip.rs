@@ -54,7 +54,7 @@ pub(crate) fn surely_on_cone<T: Real, S: SoftFingerSurface<T>>(
 /// Whether what rounding decides is found anew with twice the digits: in double precision, of a number that carries no more than
 /// a value.
 #[inline(always)]
-pub(super) fn is_found_anew<T: Real>() -> bool {
+pub(crate) fn is_found_anew<T: Real>() -> bool {
     is_refined_in_double::<T>() && !is_asked_again::<T>() && !T::CARRIES_MORE
 }
 
