@@ -89,6 +89,8 @@ fn in_short(figures: &[Figure]) -> Table {
         "f64 ns",
         "soft finger f64 ns",
         "error f64",
+        "in batches f32 ns",
+        "f64 ns",
         "error of the wrench axis with spin",
         "of the soft finger with noise of 1 %",
     ]);
@@ -114,6 +116,8 @@ fn in_short(figures: &[Figure]) -> Table {
             ns(find("point contact, batch", "f64", "force")),
             ns(soft),
             worst(soft),
+            ns(find("soft finger, batch", "f32", "spin")),
+            ns(find("soft finger, batch", "f64", "spin")),
             middle(find("point", "f64", "spin")),
             middle(find("soft finger", "f64", "spin and noise of 1 %")),
         ]);

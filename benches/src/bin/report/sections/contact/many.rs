@@ -1,23 +1,23 @@
-//! Soft fingers on meshes of more and more triangles, and point contacts of many wrenches at once.
+//! Soft fingers on meshes of more and more triangles, and contacts of many wrenches at once.
 
 use core::hint::black_box;
 
-use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
-use fingertip_contact::{ContactModel, Resolution, SoftFinger};
+use fingertip_contact::batch::{BatchSurface, Contacts, SoftContacts, Wrenches};
+use fingertip_contact::{ContactModel, Resolution, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::testing::ball_of_triangles;
-use fingertip_surfaces::{Capsule, Cylinder, Ellipsoid, Mesh, Sphere};
+use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Mesh, Sphere};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::study::{Errors, SCALE, SPIN, Study, Touch};
+use super::study::{Errors, SCALE, SPIN, Study, Touch, soft_exactly};
 use crate::Failure;
 use crate::reference::{distance, point_contact};
 use crate::stability::big::{Big3, big3, cross, dot};
 use crate::stability::contacts::pressing;
 use crate::stability::levels::Level;
-use crate::timing::time;
+use crate::timing::{Effort, time};
 
 /// A name, and the circles of latitude and of longitude of a ball of so many triangles.
 pub(super) const MESHES: [(&str, u32, u32); 3] =
@@ -70,56 +70,115 @@ pub(super) fn on_meshes<T: Real>(study: &mut Study<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Touches, and their wrenches as columns.
+struct Columns<T: Real> {
+    touches: Vec<(Touch, Wrench<T>)>,
+    force: [Vec<T>; 3],
+    torque: [Vec<T>; 3],
+    found: [Vec<T>; 7],
+    size: f64,
+}
+
+impl<T: Real> Columns<T> {
+    fn new(effort: Effort, level: Level, spins: bool) -> Self {
+        let size = level.size(SCALE);
+        let mut random = Pcg64Mcg::seed_from_u64(15);
+        // No multiple of a page, whose columns would compete for the lines of the cache.
+        let touches: Vec<(Touch, Wrench<T>)> = (0..effort.choose(72, 1000))
+            .map(|_| {
+                let (point, normal) = level.sample(&mut random, SCALE);
+                let force = pressing(&normal, random.random_range(0.5..1.0), &mut random) * 2.0;
+                let spin = if spins { SPIN * 2.0 * size * random.random_range(-1.0..1.0) } else { 0.0 };
+                let touch = Touch { point, force, normal, spin };
+                (touch, touch.wrench(spins, 0.0, size, &mut random))
+            })
+            .collect();
+        let column = |k: usize, pick: fn(&Wrench<T>) -> Vector3<T>| -> Vec<T> {
+            touches.iter().map(|(_, wrench)| pick(wrench)[k]).collect()
+        };
+        let force = [0, 1, 2].map(|k| column(k, Wrench::force));
+        let torque = [0, 1, 2].map(|k| column(k, Wrench::torque));
+        let found = [(); 7].map(|()| vec![T::zero(); touches.len()]);
+        Self { touches, force, torque, found, size }
+    }
+
+    fn resolve(&mut self, resolve: impl Fn(Wrenches<'_, T>, [&mut [T]; 7])) {
+        let Self { force, torque, found, .. } = self;
+        let wrenches =
+            Wrenches { force: force.each_ref().map(|v| &v[..]), torque: torque.each_ref().map(|v| &v[..]) };
+        resolve(wrenches, found.each_mut().map(|column| &mut column[..]));
+        black_box(found);
+    }
+
+    /// Of the first touches, those with a normal being contacts.
+    fn errors(&self, exact: impl Fn(&Touch, &Wrench<T>) -> Option<Big3>) -> Errors {
+        let [px, py, pz, nx, ny, nz, _] = &self.found;
+        Errors::of(self.touches.iter().take(64).enumerate().filter_map(|(k, (touch, wrench))| {
+            if nx[k].is_zero() && ny[k].is_zero() && nz[k].is_zero() {
+                return Some(None);
+            }
+            let place = Vector3::new(px[k], py[k], pz[k]);
+            Some(Some(distance(&place, &exact(touch, wrench)?) / self.size))
+        }))
+    }
+}
+
 /// Point contacts as columns.
 fn batch<T: Real>(study: &mut Study<'_>, name: &'static str, surface: &impl BatchSurface<T>, level: Level) {
-    let size = level.size(SCALE);
-    let mut random = Pcg64Mcg::seed_from_u64(15);
-    // No multiple of a page, whose columns would compete for the lines of the cache.
-    let touches: Vec<(Vector3<f64>, Wrench<T>)> = (0..study.effort.choose(72, 1000))
-        .map(|_| {
-            let (point, normal) = level.sample(&mut random, SCALE);
-            let force = pressing(&normal, random.random_range(0.5..1.0), &mut random) * 2.0;
-            (point, Touch { point, force, normal, spin: 0.0 }.wrench(false, 0.0, size, &mut random))
-        })
-        .collect();
-    let column = |k: usize, pick: fn(&Wrench<T>) -> Vector3<T>| -> Vec<T> {
-        touches.iter().map(|(_, wrench)| pick(wrench)[k]).collect()
+    let mut columns = Columns::new(study.effort, level, false);
+    let resolve = |wrenches: Wrenches<'_, T>, [px, py, pz, nx, ny, nz, gap]: [&mut [T]; 7]| {
+        surface.contacts(wrenches, Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap });
     };
-    let force = [0, 1, 2].map(|k| column(k, Wrench::force));
-    let torque = [0, 1, 2].map(|k| column(k, Wrench::torque));
-    let mut found = [(); 7].map(|()| vec![T::zero(); touches.len()]);
-    let mut resolve = || {
-        let [px, py, pz, nx, ny, nz, gap] = found.each_mut().map(|column| &mut column[..]);
-        surface.contacts(
-            Wrenches { force: force.each_ref().map(|v| &v[..]), torque: torque.each_ref().map(|v| &v[..]) },
-            Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
-        );
-        black_box(&mut found);
-    };
-    let timed = time(study.effort, touches.len(), &mut resolve);
-    let [px, py, pz, .., gap] = &found;
-    let errors = Errors::of(touches.iter().take(64).enumerate().filter_map(|(k, (point, wrench))| {
-        if !gap[k].is_zero() {
-            return Some(None);
-        }
-        let place = Vector3::new(px[k], py[k], pz[k]);
-        Some(Some(distance(&place, &point_contact(level, wrench, point)?) / size))
-    }));
+    let timed = time(study.effort, columns.touches.len(), || columns.resolve(resolve));
+    // A line that misses has a closest point, and its gap.
+    let missed = columns.found[6].iter().take(64).filter(|gap| !gap.is_zero()).count();
+    let errors = columns.errors(|touch, wrench| point_contact(level, wrench, &touch.point));
+    let errors = Errors { lost: errors.lost.max(missed), ..errors };
     study.push(name, "point contact, batch", "force", errors, Some(timed));
 }
 
-/// On the shapes that have a kernel.
+/// Soft fingers as columns.
+fn soft_batch<T: Real>(
+    study: &mut Study<'_>,
+    name: &'static str,
+    surface: &impl SoftFingerSurface<T>,
+    level: Level,
+) -> Result<(), Failure> {
+    let model = SoftFinger::new(T::zero())?;
+    let mut columns = Columns::new(study.effort, level, true);
+    let resolve = |wrenches: Wrenches<'_, T>, [px, py, pz, nx, ny, nz, spin_torque]: [&mut [T]; 7]| {
+        let contacts = SoftContacts { point: [px, py, pz], normal: [nx, ny, nz], spin_torque };
+        model.resolve_all(surface, wrenches, contacts);
+    };
+    let timed = time(study.effort, columns.touches.len(), || columns.resolve(resolve));
+    let errors = columns.errors(|touch, wrench| soft_exactly(level, touch, wrench, level.size(SCALE)));
+    study.push(name, "soft finger, batch", "spin", errors, Some(timed));
+    Ok(())
+}
+
+/// On shapes with a closed form.
 pub(super) fn batches<T: Real>(study: &mut Study<'_>) -> Result<(), Failure> {
     let (l, scale) = (T::literal, SCALE);
     let rounded = |x: f64| l(x * scale).to_f64();
     let (o, z) = (Vector3::zeros(), Vector3::z());
-    batch(study, "sphere", &Sphere::<T>::centred(l(scale))?, Level::Sphere { radius: rounded(1.0) });
+    macro_rules! both {
+        ($name:literal, $shape:expr, $level:expr) => {
+            let (shape, level) = ($shape, $level);
+            batch(study, $name, &shape, level);
+            soft_batch(study, $name, &shape, level)?;
+        };
+    }
+    let radius = rounded(1.0);
+    both!("sphere", Sphere::<T>::centred(l(scale))?, Level::Sphere { radius });
     let semi_axes = [1.0, 0.7, 0.4].map(rounded);
-    let ellipsoid = Ellipsoid::new(Vector3::from(semi_axes.map(l)))?;
-    batch(study, "ellipsoid", &ellipsoid, Level::Ellipsoid { semi_axes });
-    batch(study, "cylinder", &Cylinder::new(o, z, l(scale))?, Level::Cylinder { radius: rounded(1.0) });
+    both!("ellipsoid", Ellipsoid::new(Vector3::from(semi_axes.map(l)))?, Level::Ellipsoid { semi_axes });
+    both!("cylinder", Cylinder::new(o, z, l(scale))?, Level::Cylinder { radius });
     let capsule = Capsule::new(o, z, l(scale), l(1.5 * scale))?;
-    let level = Level::Capsule { half_length: rounded(1.5), radius: rounded(1.0) };
-    batch(study, "capsule", &capsule, level);
+    both!("capsule", capsule, Level::Capsule { half_length: rounded(1.5), radius });
+    let half_angle = l(HALF_ANGLE).to_f64();
+    both!("cone", Cone::new(o, -z, l(half_angle))?, Level::Cone { half_angle });
     Ok(())
 }
+
+/// Of the cone \[rad\].
+const HALF_ANGLE: f64 = 0.7;

@@ -12,6 +12,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use crate::reference::{distance, point_contact, soft_contact};
+use crate::stability::big::Big3;
 use crate::stability::contacts::pressing;
 use crate::stability::levels::Level;
 use crate::stability::shapes::Visitor;
@@ -54,6 +55,17 @@ impl Touch {
 /// The shapes of one formula that are looked at.
 pub(super) const SHAPES: [&str; 7] =
     ["sphere", "ellipsoid", "cylinder", "capsule", "cone", "torus", "superquadric"];
+
+/// What a soft finger is exactly, next to the touch.
+pub(super) fn soft_exactly<T: Real>(
+    level: Level,
+    touch: &Touch,
+    wrench: &Wrench<T>,
+    size: f64,
+) -> Option<Big3> {
+    let spin = wrench.torque_about(&touch.point.map(T::literal)).dot(&touch.normal.map(T::literal));
+    soft_contact(level, wrench, &touch.point, spin.to_f64(), size)
+}
 
 #[derive(Clone)]
 pub(super) struct Figure {
@@ -134,7 +146,7 @@ impl Study<'_> {
         model: &M,
         touches: &[Touch],
         (level, size): (Level, f64),
-        exact: impl Fn(&Touch, &Wrench<T>) -> Option<[crate::stability::big::Big; 3]>,
+        exact: impl Fn(&Touch, &Wrench<T>) -> Option<Big3>,
         warm: bool,
     ) {
         for (inputs, spin, noise) in
@@ -214,10 +226,7 @@ impl<T: Real> Visitor<T> for Study<'_> {
             several,
         );
         // The exact answer to a force alone is that of the line; to a spin, that of all equations.
-        let on_surface = |touch: &Touch, wrench: &Wrench<T>| {
-            let spin = wrench.torque_about(&touch.point.map(T::literal)).dot(&touch.normal.map(T::literal));
-            soft_contact(level, wrench, &touch.point, spin.to_f64(), size)
-        };
+        let on_surface = |touch: &Touch, wrench: &Wrench<T>| soft_exactly(level, touch, wrench, size);
         let closed = matches!(name, "sphere" | "ellipsoid" | "cylinder" | "cone");
         let method = if closed { "soft finger, closed form" } else { "soft finger" };
         self.model((name, method), &surface, &soft, &touches, place, on_surface, several);
