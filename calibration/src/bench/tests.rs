@@ -67,8 +67,7 @@ fn off(
 fn rings_that_the_drawing_leaves_out_are_counted() {
     for (rings, left_out) in [(7, None), (8, None), (9, Some("and 1 more")), (11, Some("and 3 more"))] {
         let gauges = (0..rings).map(|ring| Gauge { z: f64::from(ring) * 1e-3, theta: 1.0, q: 0.1 }).collect();
-        let unrolled =
-            Unrolled::new(&layout(1e-2, 2e-4, gauges), 20e-3, &Foil::default(), 0.0).unwrap();
+        let unrolled = Unrolled::new(&layout(1e-2, 2e-4, gauges), 20e-3, &Foil::default(), 0.0).unwrap();
         let paper = drawn::svg(&drawing(&unrolled, None).to_svg());
         let told: Vec<_> = paper.texts.iter().filter(|text| text.contains("more rings")).collect();
         match left_out {

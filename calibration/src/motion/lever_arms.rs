@@ -376,8 +376,7 @@ mod tests {
         let random = &mut Pcg64Mcg::seed_from_u64(13);
         for _ in 0..40 {
             let g = gaussian_matrix(random, 6, 12);
-            let annihilator =
-                DMatrix::identity(12, 12) - crate::linear::pseudo_inverse(&g).unwrap() * &g;
+            let annihilator = DMatrix::identity(12, 12) - crate::linear::pseudo_inverse(&g).unwrap() * &g;
             let mut map = gaussian_matrix(random, 6, 12);
             let left = refine(&mut map, &annihilator);
             assert!(((&map * &annihilator).norm() - left).abs() < 1e-12);

@@ -98,8 +98,8 @@ fn twisted<T: Real>() {
     for half_angle in [0.6, 1.0, 1.4, 1.5, 1.53, 1.55, 1.56] {
         for _ in 0..120 {
             let axis = random.direction();
-            let cone =
-                Cone::new((axis * -0.6).map(T::literal), axis.map(T::literal), T::literal(half_angle)).unwrap();
+            let cone = Cone::new((axis * -0.6).map(T::literal), axis.map(T::literal), T::literal(half_angle))
+                .unwrap();
             let [apex, axis] = [cone.apex(), cone.axis()].map(|v| v.map(Real::to_f64));
             let same = Cone::new(apex, axis, cone.half_angle().to_f64()).unwrap();
             let (sine, cosine) = cone.half_angle().to_f64().sin_cos();
