@@ -62,6 +62,21 @@ fn off(
     worst
 }
 
+/// A drawing has room for eight rings: it says how many more there are, if there are any.
+#[test]
+fn rings_that_the_drawing_leaves_out_are_counted() {
+    for (rings, left_out) in [(7, None), (8, None), (9, Some("and 1 more")), (11, Some("and 3 more"))] {
+        let gauges = (0..rings).map(|ring| Gauge { z: f64::from(ring) * 1e-3, theta: 1.0, q: 0.1 }).collect();
+        let unrolled = Unrolled::new(&layout(1e-2, 2e-4, gauges), 20e-3, &Foil::default(), 0.0).unwrap();
+        let paper = drawn::svg(&drawing(&unrolled, None).to_svg());
+        let told: Vec<_> = paper.texts.iter().filter(|text| text.contains("more rings")).collect();
+        match left_out {
+            None => assert!(told.is_empty(), "{rings}: {told:?}"),
+            Some(count) => assert!(told.len() == 1 && told[0].starts_with(count), "{rings}: {told:?}"),
+        }
+    }
+}
+
 proptest! {
     /// The template, measured back from SVG and PDF, agrees with the layout to 0.05 mm; it does to a micrometre.
     #[test]

@@ -301,3 +301,34 @@ fn static_part(table: &LoadTable, curved: bool) -> DMatrix<f64> {
     }
     DMatrix::from_fn(rows, columns.len(), |row, column| columns[column][row])
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::{PARTS, Problem};
+    use crate::Axis;
+    use crate::file::SignalUnit;
+    use crate::loads::LoadTable;
+
+    /// Cycles are left out in parts, of which there are no more than ten however long the table: each cycle is in one.
+    #[test]
+    fn parts_are_few_and_of_whole_cycles() {
+        for cycles in [3, 9, 10, 11, 25] {
+            // Ten samples each, of which the first four are at rest.
+            let load = |row: usize| if row % 10 < 4 { 0.0 } else { 1.0 + (row / 10) as f64 };
+            let loads = DMatrix::from_fn(10 * cycles, 1, |row, _| load(row));
+            let mut table = LoadTable::new(&[Axis::Fz], loads.clone(), loads, SignalUnit::Volt).unwrap();
+            table.times = Some((0..10 * cycles).map(|row| row as f64).collect());
+            let problem = Problem::of(&table, false).unwrap();
+            let mut parts = problem.parts.clone();
+            let together = |(part, cycle): (&usize, &usize)| {
+                problem.history.cycles.iter().zip(&parts).all(|(other, of)| other != cycle || of == part)
+            };
+            assert!(parts.iter().zip(&problem.history.cycles).all(together));
+            parts.sort_unstable();
+            parts.dedup();
+            assert_eq!(parts, (0..cycles.min(PARTS)).collect::<Vec<_>>(), "of {cycles} cycles");
+        }
+    }
+}

@@ -179,5 +179,9 @@ mod tests {
         all.base.set_column(2, &twice);
         let split = Split { known: all.select(&every), tried: all.select(&every) };
         assert!(forward(split, 5).is_none());
+        // Nor is a regressor of nothing one.
+        all.base.fill_column(2, 0.0);
+        let split = Split { known: all.select(&every), tried: all.select(&every) };
+        assert!(forward(split, 5).is_none());
     }
 }

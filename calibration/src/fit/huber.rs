@@ -142,4 +142,23 @@ mod tests {
         assert!(robust < 4.0 * clean, "{}", (robust / clean).sqrt());
         assert!(spoilt > 1000.0 * clean);
     }
+
+    /// Of several responses, as many steps are told as the slowest takes.
+    #[test]
+    fn the_steps_are_those_of_the_slowest_response() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(7);
+        let truth = sensor(&mut random, 7, 3);
+        let design = gaussian_matrix(&mut random, 60, 7);
+        let mut responses = &design * &truth;
+        for i in 0..60 {
+            responses[(i, 1)] += 0.01 * random.random_range(-1.0..1.0);
+            responses[(i, 2)] += if i % 7 == 0 { 3.0 } else { 0.01 * random.random_range(-1.0..1.0) };
+        }
+        let steps = |first: usize, count: usize| {
+            huber(&design, &responses.columns(first, count).into_owned(), None).unwrap().iterations
+        };
+        let each = [0, 1, 2].map(|response| steps(response, 1));
+        assert_eq!(steps(0, 3), each.into_iter().max().unwrap());
+        assert!(each[0] < each[2], "{each:?}");
+    }
 }

@@ -318,4 +318,14 @@ mod tests {
         assert!((doubts[0].direction - Vector6::new(1.0, -2.0, 1.0, 0.0, 0.0, 0.0) / 3.0).amax() < 1e-12);
         assert!(doubts[0].variance < 4.0 / 60.0 && doubts[0].variance > 3.0 / 60.0, "{}", doubts[0].variance);
     }
+
+    /// A component of no noise has none beside others either, and spoils no other.
+    #[test]
+    fn a_component_without_noise_is_no_trouble() {
+        let mut found = Matrix6::from_fn(|a, b| if a == b { 4.0 } else { 1.0 });
+        found.fill_row(2, 0.0);
+        found.fill_column(2, 0.0);
+        let kept = positive(&found, &found, &Vector6::repeat(3.0));
+        assert!((kept - found).amax() < 1e-12, "{kept}");
+    }
 }

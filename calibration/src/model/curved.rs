@@ -125,13 +125,9 @@ impl SensorModel {
     ///
     /// The variance of a load by the fit is that of one reading times `tᵀ G t`, with `t` signals and terms and `G` the inverse
     /// of their sum of squares, which no product of loads is; the product has the quadratic form of the loads that comes
-    /// nearest, relative to the squared load, over the loads of the table. `None` for too few of them, and for a sensor
-    /// without terms.
+    /// nearest, relative to the squared load, over the loads of the table. `None` for too few of them.
     pub(crate) fn covariance_with_terms(&self, table: &LoadTable) -> Option<Covariance> {
         let (axes, regressors) = (self.axes.len(), self.gauges() + self.terms.len());
-        if self.terms.is_empty() {
-            return None;
-        }
         let gram = self.fit.inverse_gram.view((0, 0), (regressors, regressors));
         let loads = normalised(&table.loads, &self.nominal);
         let signals = less(&table.signals, &self.origin);

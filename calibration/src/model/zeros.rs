@@ -60,3 +60,30 @@ pub(super) fn account_for_zeros(table: &LoadTable, design: &DMatrix<f64>, fit: &
         fit.freedom = freedom;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::account_for_zeros;
+    use crate::fit::least_squares;
+    use crate::loads::LoadTable;
+
+    /// The mean of a group is one number more that is fitted. Where that leaves no degree of freedom, nothing is known of
+    /// the noise, and what the fit says stays.
+    #[test]
+    fn a_mean_that_is_taken_off_costs_a_degree_of_freedom_if_there_is_one() {
+        for (text, factor, freedom) in [
+            ("fz_N,v1_V\n1,1.1\n-2,-1.9\n", 1.0, 1.0),
+            ("fz_N,v1_V\n1,1.1\n-2,-1.9\n3,2.7\n", 2.0, 1.0),
+            ("fz_N,v1_V\n1,1.1\n-2,-1.9\n3,2.7\n0,0.2\n", 1.5, 2.0),
+        ] {
+            let (table, _) = LoadTable::from_csv(text.as_bytes()).unwrap();
+            let table = table.centred_by_group();
+            let mut fit = least_squares(&table.loads, &table.signals, None).unwrap();
+            let own = fit.residual_covariance[(0, 0)];
+            account_for_zeros(&table, &table.loads, &mut fit);
+            let found = fit.residual_covariance[(0, 0)];
+            assert!((found - factor * own).abs() <= 1e-12 * own, "{text}: {found} of {own}");
+            assert_eq!(fit.freedom, freedom, "{text}");
+        }
+    }
+}

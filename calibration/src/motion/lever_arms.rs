@@ -297,11 +297,11 @@ fn refine(map: &mut DMatrix<f64>, annihilator: &DMatrix<f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{LeverArm, lever_arms};
+    use super::{LeverArm, dynamic, lever_arms, refine, set_block};
     use crate::fit::testing::{gaussian, gaussian_matrix, sensor};
     use crate::motion::MotionError;
     use crate::testing::Largest as _;
-    use nalgebra::{DMatrix, DVector, Vector3};
+    use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
     use rand::SeedableRng as _;
     use rand_pcg::Pcg64Mcg;
 
@@ -368,5 +368,30 @@ mod tests {
         };
         assert!(refusal(&|_| Vector3::zeros()).contains("all are zero"));
         assert!(refusal(&|arm| arm * f64::INFINITY).contains("all are zero"));
+    }
+
+    /// Wherever it starts, a search ends where no turn of a block leaves less: a step that goes too far is made shorter.
+    #[test]
+    fn every_search_ends_in_a_minimum() {
+        let random = &mut Pcg64Mcg::seed_from_u64(13);
+        for _ in 0..40 {
+            let g = gaussian_matrix(random, 6, 12);
+            let annihilator = DMatrix::identity(12, 12) - crate::linear::pseudo_inverse(&g).unwrap() * &g;
+            let mut map = gaussian_matrix(random, 6, 12);
+            let left = refine(&mut map, &annihilator);
+            assert!(((&map * &annihilator).norm() - left).abs() < 1e-12);
+            for k in 0..4 {
+                for axis in 0..3 {
+                    let turned = |angle: f64| {
+                        let turn = Rotation3::new(Vector3::ith(axis, angle));
+                        let mut other = map.clone();
+                        set_block(&mut other, k, &(map.view((0, 3 * k), (6, 3)) * dynamic(turn.matrix())));
+                        (other * &annihilator).norm_squared()
+                    };
+                    let slope = (turned(1e-4) - turned(-1e-4)) / 2e-4;
+                    assert!(slope.abs() < 1e-4 * map.norm_squared(), "{slope:e} {left}");
+                }
+            }
+        }
     }
 }

@@ -2,10 +2,10 @@
 //! contacts.
 
 use fingertip_calibration::curve::Terms;
-use fingertip_calibration::file::SignalUnit;
+use fingertip_calibration::file::{SignalUnit, Verdict};
 use fingertip_calibration::linear::{pairs, pseudo_inverse};
 use fingertip_calibration::loads::LoadTable;
-use fingertip_calibration::model::{CalibrationError, Curvature, Direction, Options};
+use fingertip_calibration::model::{CalibrationError, Curvature, Direction, Limits, Options};
 use fingertip_calibration::nalgebra::{DMatrix, DVector, Vector3, Vector6};
 use fingertip_calibration::report::Report;
 use fingertip_calibration::{Axis, Calibration, calibrate};
@@ -217,6 +217,11 @@ fn a_soft_sensor_locates_at_least_twice_as_well_on_cases_never_seen() {
         // Who fits it straight is told what it could be.
         let could = straight.report.curve.as_ref().unwrap();
         assert!(!could.taken && could.left_out_percent < 0.7 * could.straight_percent, "{could}");
+        // Nor is one to whom it does as it is.
+        let limits = Limits { left_out_percent: 1e3, ..Limits::default() };
+        let nominal = Some(NOMINAL.to_vec());
+        let easy = calibrate(&table, &Options { nominal, limits, ..Options::default() }).unwrap().report;
+        assert!(easy.verdict != Verdict::Bad && easy.curve.is_none(), "{:?}", easy.reasons);
         let is = curved.report.curve.as_ref().unwrap();
         // Its terms are as many as help, though they say more of loads that they have seen.
         assert!(
@@ -262,7 +267,7 @@ fn a_check_leaves_out_what_lies_beyond_the_calibration() {
     let random = &mut Pcg64Mcg::seed_from_u64(333);
     let file = calibrate(&of_terms(random, 120, 1.0, 0.0), &chosen()).unwrap().to_file().unwrap();
     let mut table = of_terms(random, 40, 1.0, 0.0);
-    let limits = fingertip_calibration::model::Limits::default();
+    let limits = Limits::default();
     let within = Report::of_check(&file, &table, &limits, None).unwrap();
     let sum = within.samples + within.excluded.len();
     assert!(sum == 40 && within.samples > 30, "{}", within.samples);

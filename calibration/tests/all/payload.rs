@@ -157,6 +157,15 @@ fn payload_and_mounting_do_not_mind_units_order_and_frames() {
         assert!((two.sensor_from_flange - sensor * one.sensor_from_flange).largest() < allowed);
         assert!((two.weight / newton - one.weight).abs() < 4.0 * allowed);
         close(two.force_bias / newton, sensor * one.force_bias, 3.0);
+        near(two.weight_deviation / newton, one.weight_deviation);
+        near(two.freedom[3], one.freedom[3]);
+        let of = |freedom: &[f64; 7], first: usize| Vector3::from_fn(|i, _| freedom[first + i]);
+        for i in 0..3 {
+            near(two.turn_deviation[i], (named * one.turn_deviation)[i]);
+            near(two.bias_deviation[i] / newton, (named * one.bias_deviation)[i]);
+            near(of(&two.freedom, 0)[i], (named * of(&one.freedom, 0))[i]);
+            near(of(&two.freedom, 4)[i], (named * of(&one.freedom, 4))[i]);
+        }
     }
 }
 

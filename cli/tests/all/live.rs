@@ -218,3 +218,17 @@ fn what_does_not_count_is_noted() {
         assert_eq!(terminal.finish(), (Some(0), said));
     }
 }
+
+/// What a scene hardly means is said once, as by every command that goes by a scene.
+#[test]
+fn a_doubtful_scene_is_doubted() {
+    let folder = Folder::new();
+    let plain = std::fs::read_to_string(scene("paper_sphere.toml")).unwrap();
+    folder.write("far.toml", &plain.replace("radius_m = 0.013", "radius_m = 13.0"));
+    let mut terminal = Terminal::start(&folder, &["sim?rate_Hz=200", "--scene", "far.toml"]);
+    terminal.until(" live  sim");
+    terminal.press(b"q");
+    let (code, said) = terminal.finish();
+    let doubt = "warning: `radius_m` of [surface] is 13 m, longer than any fingertip";
+    assert!(code == Some(0) && said.matches(doubt).count() == 1, "{code:?} {said}");
+}

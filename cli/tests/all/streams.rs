@@ -88,3 +88,22 @@ fn a_reader_that_has_seen_enough_is_no_fault() {
         assert!(output.status.success() && !error.contains("panicked"), "{arguments:?}: {error}");
     }
 }
+
+/// A recording that does not end can be analysed up to a time: nothing waits for what lies behind it.
+#[test]
+fn what_lies_behind_the_end_is_not_read() {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    let arguments =
+        ["analyze", "-", "--scene", "scene.toml", "--end", "0.5", "--output", "/dev/null", "--no-report"];
+    let mut command = folder.command(&arguments);
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut rows = BufWriter::new(child.stdin.take().unwrap());
+    writeln!(rows, "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm").unwrap();
+    // Far more than are read ahead; it ends, so that a fault makes the test fail and not hang.
+    let is_read = |row: u32| writeln!(rows, "{:.3},0,0,-1,0,0,0", f64::from(row) * 1e-3).is_ok();
+    assert!(!(0..3_000_000).all(is_read), "all was read");
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && said.contains(" contacts"), "{said}");
+}

@@ -90,6 +90,51 @@ fn cones_of_any_angle_take_the_short_way() {
     cones::<f32>(2e-6);
 }
 
+/// Steep presses under spin torques as great as a blunt side takes by the short way: of a torque that is all but along
+/// the side's normals rounding takes the digits, so that it is not to answer.
+fn twisted<T: Real>() {
+    let mut random = Random::new(47);
+    let (mut told, mut steeply) = (Told { tried: 0, answered: 0, worst: Worst::new() }, 0);
+    for half_angle in [0.6, 1.0, 1.4, 1.5, 1.53, 1.55, 1.56] {
+        for _ in 0..120 {
+            let axis = random.direction();
+            let cone = Cone::new((axis * -0.6).map(T::literal), axis.map(T::literal), T::literal(half_angle))
+                .unwrap();
+            let [apex, axis] = [cone.apex(), cone.axis()].map(|v| v.map(Real::to_f64));
+            let same = Cone::new(apex, axis, cone.half_angle().to_f64()).unwrap();
+            let (sine, cosine) = cone.half_angle().to_f64().sin_cos();
+            let outward = axis.cross(&random.direction()).normalize();
+            let depth = random.uniform(0.3, 1.5);
+            let point = apex + (axis * cosine + outward * sine) * depth;
+            let normal = outward * cosine - axis * sine;
+            let force = random.force(&normal, 0.5, 1.0);
+            // As much as bends the pressing force to where the angle is called flat, and less.
+            let share = ((force.dot(&normal) / 0.3).powi(2) - 1.0).sqrt() / 3.0_f64.sqrt();
+            let most = share * depth * sine / cosine;
+            let spin = random.sign() * random.log_uniform(0.02, 1.0) * most;
+            let case = Case::new(point, normal, force, spin);
+            let wrench = number::<T>(&case.wrench);
+            told.tried += 1;
+            steeply += u32::from(spin.abs() > 0.1 * most);
+            let push = ForceLine::new(&wrench, T::zero()).unwrap();
+            let Some(contact) = cone.sole_soft_contact(&push) else { continue };
+            let truth = exact::contact(&cone, &same, &wrench, &point, 1.0).unwrap();
+            told.answered += 1;
+            told.worst.see(distance(&contact.point, &truth) / (1.0 + point.norm()));
+        }
+    }
+    let Told { tried, answered, worst } = told;
+    println!("{answered} of {tried}, {steeply} twisted most, {:.1} ε", worst.get() / T::EPSILON.to_f64());
+    assert!(answered >= tried / 4, "{answered} of {tried}");
+    assert!(worst.get() < 6.0 * T::EPSILON.to_f64(), "{:e}", worst.get());
+}
+
+#[test]
+fn a_torque_along_the_normals_of_a_blunt_side_takes_no_digits() {
+    twisted::<f64>();
+    twisted::<f32>();
+}
+
 fn frusta<T: Real>(tolerance: f64) {
     let mut random = Random::new(31);
     for [base, top] in [[0.4, 0.399], [0.4, 0.4], [0.3, 0.5], [0.5, 0.0], [0.0, 0.4], [0.9, 0.2]] {

@@ -50,6 +50,18 @@ fn a_motion_tells_what_is_swung_and_a_touch_is_felt_through_it() {
     let said = folder.succeed(&calibrate);
     assert!(said.contains("Payload: GOOD") && said.contains("mass            0.67"), "{said}");
     assert!(said.contains("come +8.0") && said.contains("Written: payload.toml"), "{said}");
+    let told = |name: &str| -> Vec<f64> {
+        let told = said.lines().find_map(|line| line.strip_prefix(name)).unwrap_or_else(|| panic!("{said}"));
+        told.split_whitespace().map_while(|word| word.parse().ok()).collect()
+    };
+    for (name, truth, allowed) in
+        [("force at rest ", &BIAS[..3], 0.02), ("torque at rest ", &BIAS[3..], 0.002)]
+    {
+        let told = told(name);
+        let is_near = |(told, truth): (&f64, &f64)| (told - truth).abs() < allowed;
+        assert!(told.len() == 3 && told.iter().zip(truth).all(is_near), "{name}: {told:?}");
+    }
+    assert_eq!((told("centre of mass ").len(), told("inertia ").len()), (3, 6), "{said}");
     folder.write("touch.csv", &motion(20.0, 3.0, Some(1.5)));
     folder.write("scene.toml", SCENE);
     let analyze = ["analyze", "touch.csv", "--scene", "scene.toml", "--no-report"];
