@@ -5,7 +5,7 @@ use core::any::Any;
 use fingertip_contact::ContactModel;
 use fingertip_friction::{SlipMargin, SlipVerdict};
 use fingertip_surfaces::{Capsule, Cylinder, Ellipsoid, Plane, Sphere};
-use fingertip_wrench::{Compensation, Real, Wrench, WrenchSolver};
+use fingertip_wrench::{Compensation, ContactForce, Real, Wrench, WrenchSolver};
 use nalgebra::{SVector, Vector3};
 
 use crate::columns::Vectorised;
@@ -95,13 +95,26 @@ impl<T> Touches<'_, T> {
 impl<T: Real> Touches<'_, T> {
     /// Writes one sample; an index beyond the columns writes nothing.
     pub fn put(&mut self, index: usize, touch: &AnyTouch<T>) {
+        self.put_parts(index, touch.point(), touch.force.as_ref(), touch.grip.flatten(), touch.slip);
+    }
+
+    /// The same of a touch in parts: where, the force, the margin and the verdict.
+    #[doc(hidden)]
+    pub fn put_parts(
+        &mut self,
+        index: usize,
+        point: Option<Vector3<T>>,
+        force: Option<&ContactForce<T>>,
+        margin: Option<SlipMargin<T>>,
+        slip: Option<SlipVerdict>,
+    ) {
         fn write<A>(column: &mut [A], index: usize, value: A) {
             if let Some(place) = column.get_mut(index) {
                 *place = value;
             }
         }
-        let at = touch.point().unwrap_or_else(Vector3::zeros);
-        let (normal, tangential) = match touch.force {
+        let at = point.unwrap_or_else(Vector3::zeros);
+        let (normal, tangential) = match force {
             Some(force) => (force.normal, force.tangential.vector()),
             None => (T::zero(), Vector3::zeros()),
         };
@@ -111,10 +124,10 @@ impl<T: Real> Touches<'_, T> {
         }
         write(self.normal_force, index, normal);
         let none = SlipMargin { newtons: T::zero(), utilisation: T::zero() };
-        let SlipMargin { newtons, utilisation } = touch.grip.flatten().unwrap_or(none);
+        let SlipMargin { newtons, utilisation } = margin.unwrap_or(none);
         write(self.margin, index, newtons);
         write(self.utilisation, index, utilisation);
-        write(self.slip, index, touch.slip.unwrap_or(SlipVerdict::NotPressing));
+        write(self.slip, index, slip.unwrap_or(SlipVerdict::NotPressing));
     }
 }
 

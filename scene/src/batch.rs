@@ -1,9 +1,11 @@
 //! Touches of many samples at once, for simulation, learning and replay.
 
+use fingertip::contact::batch::{SoftContacts, Wrenches};
+use fingertip::friction::{FrictionModel, RatioThreshold, SlipDetector};
 use fingertip::surfaces::DynSurface;
-use fingertip::wrench::{Real, Wrench, WrenchSolver};
+use fingertip::wrench::{ContactForce, Real, Wrench, WrenchSolver};
 use fingertip::{Fingertip, Touches};
-use nalgebra::Vector6;
+use nalgebra::{Vector3, Vector6};
 
 use crate::friction::Limit;
 use crate::model::Model;
@@ -28,7 +30,9 @@ impl<T: Real> Pipeline<T> {
     ///
     /// Any scene can. A point contact on a sphere, an ellipsoid, a cylinder without ends, a capsule or a plane, with
     /// Coulomb friction and the threshold detector and without filter, is one loop that the compiler vectorises: see
-    /// [`Fingertip::sense_all`] for what its answers then leave out, next to that from those of `sense`.
+    /// [`Fingertip::sense_all`] for what its answers then leave out, next to that from those of `sense`. Of soft fingers on
+    /// shapes with a closed form, with any friction and no detector but that, the contacts are found in such a loop
+    /// ([`SoftFinger::resolve_all`](fingertip::contact::SoftFinger::resolve_all)), each to the bit that of `sense`.
     ///
     /// ```
     /// use fingertip::Touches;
@@ -61,7 +65,9 @@ impl<T: Real> Pipeline<T> {
                 wrenches[axis].get(index).copied().unwrap_or_else(T::zero)
             }))
         };
-        if self.in_vectors(wrenches, time_step, touches.by_ref()) {
+        if self.in_vectors(wrenches, time_step, touches.by_ref())
+            || self.by_soft_contacts(wrenches, time_step, touches.by_ref(), count)
+        {
             // The last one again, for what stays.
             if let Some(last) = count.checked_sub(1) {
                 self.sense(at(last), time_step);
@@ -99,5 +105,93 @@ impl<T: Real> Pipeline<T> {
             DynSurface::Plane(plane) => vectors!(plane),
             _ => false,
         }
+    }
+
+    /// Soft fingers, whose contacts are found in columns, block by block, and then judged one by one: `false`, and nothing
+    /// done, if the scene has more to say of them, or a shape without a closed form.
+    fn by_soft_contacts(
+        &self,
+        wrenches: [&[T]; 6],
+        time_step: T,
+        touches: Touches<'_, T>,
+        count: usize,
+    ) -> bool {
+        let (Model::SoftFinger(model), None, false) = (self.model(), self.filter(), self.has_more()) else {
+            return false;
+        };
+        let detector = match self.detector() {
+            None => None,
+            Some(Detector::Threshold(detector)) => Some(*detector),
+            Some(_) => return false,
+        };
+        let mut judged = Judged { friction: self.limit(), detector, time_step, touches, count };
+        macro_rules! columns {
+            ($shape:expr) => {{
+                judged.block_by_block(wrenches, |given, found| model.resolve_all($shape, given, found));
+                true
+            }};
+        }
+        match self.surface() {
+            DynSurface::Sphere(cap) if cap.active_fraction() >= T::one() => columns!(&cap.sphere()),
+            DynSurface::Cylinder(shape) => columns!(shape),
+            DynSurface::Ellipsoid(shape) => columns!(shape),
+            DynSurface::Capsule(shape) => columns!(shape),
+            DynSurface::Plane(shape) => columns!(shape),
+            DynSurface::Cone(shape) => columns!(shape),
+            DynSurface::Frustum(shape) => columns!(shape),
+            DynSurface::CappedCylinder(shape) => columns!(shape),
+            DynSurface::EllipticCylinder(shape) => columns!(shape),
+            DynSurface::Paraboloid(shape) => columns!(shape),
+            _ => false,
+        }
+    }
+}
+
+/// How many contacts are found together.
+const BLOCK: usize = 256;
+
+/// What is made of contacts in columns.
+struct Judged<'a, T: Real> {
+    friction: Option<&'a Limit<T>>,
+    detector: Option<RatioThreshold<T>>,
+    time_step: T,
+    touches: Touches<'a, T>,
+    count: usize,
+}
+
+impl<T: Real> Judged<'_, T> {
+    fn block_by_block(&mut self, all: [&[T]; 6], resolve: impl Fn(Wrenches<'_, T>, SoftContacts<'_, T>)) {
+        let mut columns = [[T::zero(); BLOCK]; 7];
+        let mut start = 0;
+        while start < self.count {
+            let block = start..self.count.min(start + BLOCK);
+            let [fx, fy, fz, tx, ty, tz] = all.map(|column| column.get(block.clone()).unwrap_or_default());
+            let [x, y, z, nx, ny, nz, spin_torque] = columns.each_mut().map(|column| &mut column[..]);
+            resolve(
+                Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] },
+                SoftContacts { point: [x, y, z], normal: [nx, ny, nz], spin_torque },
+            );
+            let [x, y, z, nx, ny, nz, spins] = &columns;
+            let points = x.iter().zip(y).zip(z).map(|((x, y), z)| Vector3::new(*x, *y, *z));
+            let normals = nx.iter().zip(ny).zip(nz).map(|((x, y), z)| Vector3::new(*x, *y, *z));
+            let forces = fx.iter().zip(fy).zip(fz).map(|((x, y), z)| Vector3::new(*x, *y, *z));
+            let found = points.zip(normals).zip(spins.iter().zip(forces));
+            for (index, ((point, normal), (spin, force))) in block.clone().zip(found) {
+                let is_contact = normal != Vector3::zeros();
+                let contact = is_contact.then(|| (point, ContactForce::split(&force, &normal, *spin)));
+                self.put(index, contact.as_ref());
+            }
+            start = block.end;
+        }
+    }
+
+    fn put(&mut self, index: usize, contact: Option<&(Vector3<T>, ContactForce<T>)>) {
+        let force = contact.map(|(_, force)| force);
+        let margin = force.and_then(|force| Some(self.friction?.slip_margin(force)));
+        let slip = self.detector.as_mut().map(|detector| match force {
+            Some(force) => detector.update(force, self.time_step),
+            None => detector.update_open(self.time_step),
+        });
+        self.touches.put_parts(index, contact.map(|(point, _)| *point), force, margin, slip);
     }
 }

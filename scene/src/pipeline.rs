@@ -353,6 +353,11 @@ impl<T: Real> Pipeline<T> {
         self.filter.as_ref()
     }
 
+    /// Whether a stage beside those of every scene is there.
+    pub(crate) const fn has_more(&self) -> bool {
+        self.has_more
+    }
+
     /// The slip detector, if the scene has one, with what it saw so far.
     pub const fn detector(&self) -> Option<&Detector<T>> {
         self.stages.slip().0.as_ref()

@@ -140,6 +140,12 @@ fn columns_are_one_sample_after_another() {
     use fingertip::friction::SlipVerdict;
 
     let point = "[contact]\nleast_force_N = 0.1\n[friction]\nstatic_coefficient = 0.5\n";
+    let soft =
+        "[contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n[friction]\nstatic_coefficient = 0.5\n";
+    let elliptic = soft.replace(
+        "static_coefficient = 0.5",
+        "limit = \"soft_finger\"\nstatic_coefficient = 0.5\ntorque_arm_m = 0.002",
+    );
     let threshold = "[slip]\ndetector = \"threshold\"\nnoise_N = 0.01\n";
     let of = |shape: &str| format!("[surface]\nshape = {shape}\n");
     for (text, exact) in [
@@ -171,6 +177,32 @@ fn columns_are_one_sample_after_another() {
         ),
         (format!("{HEAD}{BALL}{point}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n"), true),
         (format!("{HEAD}{BALL}[contact]\nmodel = \"soft_finger\"\nleast_force_N = 0.1\n"), true),
+        // Soft fingers, whose contacts are found in columns.
+        (format!("{HEAD}{BALL}{soft}{threshold}"), true),
+        (format!("{HEAD}{}{soft}{threshold}", of("\"ellipsoid\"\nsemi_axes_m = [0.012, 0.01, 0.015]")), true),
+        (format!("{HEAD}{}{soft}", of("\"capsule\"\nradius_m = 0.01\nhalf_length_m = 0.01")), true),
+        (format!("{HEAD}{}{soft}{threshold}", of("\"plane\"\npoint_m = [0.0, 0.0, 0.01]")), true),
+        (
+            format!(
+                "{HEAD}{}{elliptic}",
+                of("\"cylinder\"\nradius_m = 0.01\naxis = [1.0, 0.0, 0.0]\nhalf_length_m = 0.004")
+            ),
+            true,
+        ),
+        (
+            format!(
+                "{HEAD}{}{soft}{threshold}",
+                of("\"elliptic_cylinder\"\nsemi_axes_m = [0.01, 0.008]\nends_m = { capped = 0.01 }")
+            ),
+            true,
+        ),
+        (
+            format!(
+                "{HEAD}{}{soft}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n",
+                of("\"capsule\"\nradius_m = 0.01\nhalf_length_m = 0.01")
+            ),
+            true,
+        ),
         (format!("{HEAD}[filter]\nkind = \"low_pass\"\ncutoff_Hz = 80.0\n{BALL}{point}{threshold}"), true),
         (
             format!(
