@@ -31,8 +31,8 @@ impl<T: Real> Pipeline<T> {
     /// Any scene can. A point contact on a sphere, an ellipsoid, a cylinder without ends, a capsule or a plane, with
     /// Coulomb friction and the threshold detector and without filter, is one loop that the compiler vectorises: see
     /// [`Fingertip::sense_all`] for what its answers then leave out, next to that from those of `sense`. Of soft fingers on
-    /// shapes with a closed form, with any friction and no detector but that, the contacts are found in such a loop
-    /// ([`SoftFinger::resolve_all`](fingertip::contact::SoftFinger::resolve_all)), each to the bit that of `sense`.
+    /// shapes with a closed form, with any friction limit and with the threshold detector or none, the contacts are found in
+    /// such a loop ([`SoftFinger::resolve_all`](fingertip::contact::SoftFinger::resolve_all)), each to the bit that of `sense`.
     ///
     /// ```
     /// use fingertip::Touches;
