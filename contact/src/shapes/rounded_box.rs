@@ -234,11 +234,8 @@ fn entry_of_rounded_box<T: Real>(shape: &RoundedBox<T>, push: &ForceLine<T>) -> 
     let along = later(later(x, y), z);
     let is_last = [x == along, y == along, z == along];
     let place = s + f * along;
-    // Beyond the core along which axes: −1, 0 or 1. At a sharp edge two planes are last, and it is none.
-    let beyond = |place: &Vector3<T>, k: usize| {
-        select_unpredictable(place[k].abs() > core[k], one.copysign(place[k]), zero)
-    };
-    let part = |k: usize| select_unpredictable(is_last[k], one.copysign(-f[k]), beyond(&place, k));
+    // At a sharp edge two planes are last, and it is none.
+    let part = |k: usize| select_unpredictable(is_last[k], one.copysign(-f[k]), beyond(place[k], core[k]));
     let side = Vector3::new(part(0), part(1), part(2));
     let sole = (is_last[0] ^ is_last[1] ^ is_last[2]) & !(is_last[0] & is_last[1] & is_last[2]);
     let flat = sole & (side.norm_squared() <= one);
@@ -287,15 +284,21 @@ fn over<T: Real>(
     let normal = (q + across * along) * (one / rounding);
     let point = centre + (from_centre + f * along);
     let part = |k: usize| {
-        let beyond = select_unpredictable(point[k].abs() > core[k], one.copysign(point[k]), zero);
         let kept = select_unpredictable(normal[k] * side[k] >= zero, side[k], zero);
-        select_unpredictable(side[k] == zero, beyond, kept)
+        select_unpredictable(side[k] == zero, beyond(point[k], core[k]), kept)
     };
     let farthest = T::literal(FARTHEST);
     let is_near = q.norm_squared() <= reach * (farthest * farthest);
     let incidence_squared = select_unpredictable(is_near, discriminant / (reach * push.squared()), zero);
     let next = Vector3::new(part(0), part(1), part(2));
     (Entry { point, normal, incidence_squared, parts: None, active: true }, next)
+}
+
+/// On which side a coordinate is beyond the core: −1 or 1, or 0 if it is not.
+#[cfg(feature = "batch")]
+#[inline(always)]
+fn beyond<T: Real>(coordinate: T, core: T) -> T {
+    select_unpredictable(coordinate.abs() > core, T::one().copysign(coordinate), T::zero())
 }
 
 /// In radii.

@@ -1,7 +1,7 @@
 //! A contact on a circular edge, where rounding moves it along.
 
 use fingertip_surfaces::LocalSurface;
-use fingertip_surfaces::numeric::twofold::{Twofold, Wide};
+use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
@@ -48,14 +48,13 @@ fn anew<T: Real>(
     let (scale, load) = scaled(wrench);
     let point = wide(&contact.point);
     let outward = frame.point_inside(&point) - rim.centre;
-    let found = Around::<f64>::of(rim, frame.load_inside(load));
-    let sine = dot(cross(exactly(&rim.axis), exactly(&outward)), found.aside) / outward.norm();
+    let [inside, about] = frame.load_inside::<f64>(load).map(Vector3::from);
+    let held = (about - rim.centre.cross(&inside)).dot(&outward) / outward.norm();
     let [force, torque] = load;
-    if !((found.length * sine).abs() <= (torque.norm() + force.norm() * point.norm()) * HAIR) {
+    if !(held.abs() <= (torque.norm() + force.norm() * point.norm()) * HAIR) {
         return None;
     }
-    let surely = Around::<Twofold<f64>>::of(rim, frame.load_inside(load));
-    let (arm, spin, normal) = surely.solved(rim.radius, sine)?;
+    let (arm, spin, normal) = solved(rim, frame.load_inside(load), held)?;
     let point = frame.point_outside(&(rim.centre + arm));
     let normal = frame.direction_outside(&normal);
     // Anything else is another contact.
@@ -67,43 +66,27 @@ fn anew<T: Real>(
     })
 }
 
-/// What tells where on the edge: the force, the torque about the centre, the length of what is across the axis of it, its
-/// direction and the other, and the cosine of the angle of the tangent from it.
-struct Around<W> {
-    force: Three<W>,
-    torque: Three<W>,
-    axis: Three<W>,
-    length: W,
-    along: Three<W>,
-    aside: Three<W>,
-    cosine: W,
-}
-
-impl<W: Wide> Around<W> {
-    fn of(rim: &Rim, [force, torque]: [Three<W>; 2]) -> Self {
-        let minus = W::exactly(-1.0);
-        let (_, axis) = unit(exactly(&rim.axis));
-        let torque = plus_times(torque, cross(exactly(&rim.centre), force), minus);
-        let (length, along) = unit(plus_times(torque, axis, minus.times(dot(torque, axis))));
-        let cosine = minus.times(W::exactly(rim.radius)).times(dot(force, axis)).over(length);
-        Self { force, torque, axis, length, along, aside: cross(axis, along), cosine }
+/// Arm, spin torque and normal of the solution where `m·ρ` has the sign of `held`: with the tangent at an angle from the part of
+/// the torque across the axis whose cosine is `−R f·a` over that part, and whose sine has the sign of `m·ρ`.
+fn solved(
+    rim: &Rim,
+    [force, torque]: [Three<Twofold<f64>>; 2],
+    held: f64,
+) -> Option<(Vector3<f64>, f64, Vector3<f64>)> {
+    let [one, minus, radius] = [1.0, -1.0, rim.radius].map(Twofold::new);
+    let (_, axis) = unit(exactly(&rim.axis));
+    let torque = plus_times(torque, cross(exactly(&rim.centre), force), minus);
+    let (length, along) = unit(plus_times(torque, axis, minus.times(dot(torque, axis))));
+    let cosine = minus.times(radius).times(dot(force, axis)).divided_by(length);
+    let squared = one.minus(cosine).times(one.plus(cosine));
+    if !(squared.value() >= 0.0) {
+        return None;
     }
-
-    /// Arm, spin torque and normal of the solution on this side.
-    fn solved(self, radius: f64, side: f64) -> Option<(Vector3<f64>, f64, Vector3<f64>)> {
-        let one = W::exactly(1.0);
-        let squared = one.minus(self.cosine).times(one.plus(self.cosine));
-        if !(squared.rounded() >= 0.0) {
-            return None;
-        }
-        let sine = W::exactly(1.0_f64.copysign(side)).times(squared.root());
-        let none = [W::exactly(0.0); 3];
-        let tangent = plus_times(plus_times(none, self.along, self.cosine), self.aside, sine);
-        let arm = cross(tangent, self.axis).map(|x| x.times(W::exactly(radius)));
-        let rest = plus_times(self.torque, cross(arm, self.force), W::exactly(-1.0));
-        let (spin, normal) = unit(rest);
-        let sign = if dot(self.force, self.torque).rounded() > 0.0 { -1.0 } else { 1.0 };
-        let (spin, normal) = (spin.rounded() * sign, rounded(normal) * sign);
-        (spin + normal.sum()).is_number().then(|| (rounded(arm), spin, normal))
-    }
+    let sine = Twofold::new(1.0_f64.copysign(held)).times(squared.root());
+    let tangent = plus_times(along.map(|x| x.times(cosine)), cross(axis, along), sine);
+    let arm = cross(tangent, axis).map(|x| x.times(radius));
+    let (spin, normal) = unit(plus_times(torque, cross(arm, force), minus));
+    let sign = if dot(force, torque).value() > 0.0 { -1.0 } else { 1.0 };
+    let (spin, normal) = (spin.value() * sign, rounded(normal) * sign);
+    (spin + normal.sum()).is_number().then(|| (rounded(arm), spin, normal))
 }
