@@ -1,16 +1,15 @@
 //! Touches of many samples at once, for simulation, learning and replay.
 
 use fingertip::contact::batch::{SoftContacts, Wrenches};
-use fingertip::friction::{FrictionModel, RatioThreshold, SlipDetector};
 use fingertip::surfaces::DynSurface;
 use fingertip::wrench::{ContactForce, Real, Wrench, WrenchSolver};
-use fingertip::{Fingertip, Touches};
+use fingertip::{Fingertip, GripStage, SlipStage, Touches};
 use nalgebra::{Vector3, Vector6};
 
-use crate::friction::Limit;
+use crate::friction::{Friction, Limit};
 use crate::model::Model;
 use crate::pipeline::Pipeline;
-use crate::slip::Detector;
+use crate::slip::{Detector, SlipWatch};
 
 /// A sensor that reports wrenches: its signals are their components.
 #[derive(Clone, Copy, Debug)]
@@ -119,12 +118,9 @@ impl<T: Real> Pipeline<T> {
         let (Model::SoftFinger(model), None, false) = (self.model(), self.filter(), self.has_more()) else {
             return false;
         };
-        let detector = match self.detector() {
-            None => None,
-            Some(Detector::Threshold(detector)) => Some(*detector),
-            Some(_) => return false,
-        };
-        let mut judged = Judged { friction: self.limit(), detector, time_step, touches, count };
+        let (None | Some(Detector::Threshold(_))) = self.detector() else { return false };
+        let (friction, slip) = (Friction(self.limit().cloned()), SlipWatch(self.detector().cloned()));
+        let mut judged = Judged { friction, slip, time_step, touches, count };
         macro_rules! columns {
             ($shape:expr) => {{
                 judged.block_by_block(wrenches, |given, found| model.resolve_all($shape, given, found));
@@ -152,8 +148,8 @@ const BLOCK: usize = 256;
 
 /// What is made of contacts in columns.
 struct Judged<'a, T: Real> {
-    friction: Option<&'a Limit<T>>,
-    detector: Option<RatioThreshold<T>>,
+    friction: Friction<T>,
+    slip: SlipWatch<T>,
     time_step: T,
     touches: Touches<'a, T>,
     count: usize,
@@ -187,11 +183,8 @@ impl<T: Real> Judged<'_, T> {
 
     fn put(&mut self, index: usize, contact: Option<&(Vector3<T>, ContactForce<T>)>) {
         let force = contact.map(|(_, force)| force);
-        let margin = force.and_then(|force| Some(self.friction?.slip_margin(force)));
-        let slip = self.detector.as_mut().map(|detector| match force {
-            Some(force) => detector.update(force, self.time_step),
-            None => detector.update_open(self.time_step),
-        });
+        let margin = force.and_then(|force| self.friction.judge(force));
+        let slip = self.slip.follow(force, self.time_step);
         self.touches.put_parts(index, contact.map(|(point, _)| *point), force, margin, slip);
     }
 }
