@@ -110,15 +110,19 @@ impl<T: Real> Columns<T> {
         black_box(found);
     }
 
-    /// Of the first touches, those with a normal being contacts.
-    fn errors(&self, exact: impl Fn(&Touch, &Wrench<T>) -> Option<Big3>) -> Errors {
-        let [px, py, pz, nx, ny, nz, _] = &self.found;
+    /// Of the first touches, and of those alone that `is_contact` says of what was found: the others are lost.
+    fn errors(
+        &self,
+        is_contact: impl Fn([T; 7]) -> bool,
+        exact: impl Fn(&Touch, &Wrench<T>) -> Option<Big3>,
+    ) -> Errors {
         Errors::of(self.touches.iter().take(64).enumerate().filter_map(|(k, (touch, wrench))| {
-            if nx[k].is_zero() && ny[k].is_zero() && nz[k].is_zero() {
+            let found = self.found.each_ref().map(|column| column[k]);
+            if !is_contact(found) {
                 return Some(None);
             }
-            let place = Vector3::new(px[k], py[k], pz[k]);
-            Some(Some(distance(&place, &exact(touch, wrench)?) / self.size))
+            let [x, y, z, ..] = found;
+            Some(Some(distance(&Vector3::new(x, y, z), &exact(touch, wrench)?) / self.size))
         }))
     }
 }
@@ -130,10 +134,8 @@ fn batch<T: Real>(study: &mut Study<'_>, name: &'static str, surface: &impl Batc
         surface.contacts(wrenches, Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap });
     };
     let timed = time(study.effort, columns.touches.len(), || columns.resolve(resolve));
-    // A line that misses has a closest point, and its gap.
-    let missed = columns.found[6].iter().take(64).filter(|gap| !gap.is_zero()).count();
-    let errors = columns.errors(|touch, wrench| point_contact(level, wrench, &touch.point));
-    let errors = Errors { lost: errors.lost.max(missed), ..errors };
+    let enters = |[.., gap]: [T; 7]| gap.is_zero();
+    let errors = columns.errors(enters, |touch, wrench| point_contact(level, wrench, &touch.point));
     study.push(name, "point contact, batch", "force", errors, Some(timed));
 }
 
@@ -151,7 +153,9 @@ fn soft_batch<T: Real>(
         model.resolve_all(surface, wrenches, contacts);
     };
     let timed = time(study.effort, columns.touches.len(), || columns.resolve(resolve));
-    let errors = columns.errors(|touch, wrench| soft_exactly(level, touch, wrench, level.size(SCALE)));
+    let has_normal = |[_, _, _, nx, ny, nz, _]: [T; 7]| Vector3::new(nx, ny, nz) != Vector3::zeros();
+    let exact = |touch: &Touch, wrench: &Wrench<T>| soft_exactly(level, touch, wrench, columns.size);
+    let errors = columns.errors(has_normal, exact);
     study.push(name, "soft finger, batch", "spin", errors, Some(timed));
     Ok(())
 }
