@@ -356,10 +356,16 @@ impl<T: Real> PointContact<T> {
         let incidence = larger(-line.direction.dot(&normal), T::zero());
         let held = incidence >= self.least_incidence;
         if enters {
-            return if held {
-                Ok(entered(wrench, surface, (point, normal), incidence))
+            if !held {
+                return Err(too_flat(point, incidence));
+            }
+            let place = entered(wrench, surface, (point, normal), incidence);
+            // Rounding may make a line meet that misses, and pull where the surface is bent so sharply that it turns
+            // the normal by more than that of a line that grazes.
+            return if line.direction.dot(&place.normal) <= T::EPSILON.root() {
+                Ok(place)
             } else {
-                Err(too_flat(point, incidence))
+                Err(NoContact::Misses { closest })
             };
         }
         // Rounding may make a line miss that meets: more digits know.

@@ -1,7 +1,9 @@
 //! Trials that were once wrong or lost among a million, each judged as there.
 
 use fingertip_contact::{ContactModel, SoftFinger, SoftFingerSurface};
-use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Cylinder, Frustum, Posed, Sphere, Torus};
+use fingertip_surfaces::{
+    CappedCylinder, Capsule, Cone, Cylinder, Frustum, Posed, Sphere, Superquadric, Torus,
+};
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -253,4 +255,19 @@ fn on_the_edge_of_a_cone_in_a_pose() {
         [-0.460_388_991_119_750_6, -0.347_719_809_149_302_06, -0.332_178_264_635_784_87],
         0.3,
     );
+}
+
+/// Next to a plane of two axes, where the surface is bent so sharply that the rounding of a place turned its normal away
+/// from a line that misses by 34 fm.
+#[test]
+fn a_force_that_all_but_grazes_a_superquadric() {
+    let axes = Vector3::new(1.423_449_6e-6_f32, 2.237_971e-6, 1.004_115_7e-6);
+    let count = judged(
+        Asked::Point,
+        Superquadric::new(axes, [1.189_344_6, 1.585_035_8]).unwrap(),
+        [[-2_915.305_7, -573.132_93, 544.371_9], [0.001_132_081_3, 0.000_339_785_27, 0.006_420_437]],
+        [-2.358_817_4e-9, 2.201_856_7e-6, -1.161_117_5e-7],
+        2.2e-6,
+    );
+    assert_eq!((count.unsure, count.none), (0, 1), "{count}");
 }

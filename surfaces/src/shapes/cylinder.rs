@@ -7,8 +7,8 @@ use super::axis::Axis;
 use crate::numeric::vectors::{hypotenuse, is_finite, length, wide};
 use crate::shortcuts::entry_near;
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, Shortcuts,
-    SmoothSurface, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, ForceParts, Level,
+    Shortcuts, SmoothSurface, Topology,
 };
 
 /// The lateral surface of a circular cylinder, unbounded or with an active part of finite length.
@@ -195,17 +195,43 @@ impl<T: Real> ActiveSurface<T> for Cylinder<T> {
 }
 
 impl<T: Real> Shortcuts<T> for Cylinder<T> {
+    /// Before anything is normalised. With the parts of the force along and across the axis `f_a`, `f_⊥`, and the
+    /// torque about the centre without its part along the force, `m`, of which `q = m_a/R` turns about the axis:
+    ///
+    /// ```text
+    /// n = (q f_⊥ × a − s f_⊥)/|f_⊥|²,   s = −f·n = √(|f_⊥|² − q²),   z = (m·(a × f) − R f_a s)/|f_⊥|²
+    /// ```
+    ///
+    /// What is tangential is `√(f_a² + q²)`, to the last digits even where that is small. No contact if the force
+    /// is parallel to the axis.
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        let line = push.line();
-        let (along, foot, across, squared) = self.foot(&line)?;
-        let remainder = T::one() - foot.norm_squared();
-        (remainder >= T::zero()).then(|| {
-            let half_chord = (remainder / squared).root();
-            let entry = self.crossing(&line, along - half_chord * self.radius, foot - across * half_chord);
-            let Crossing { point, normal, active, .. } = entry;
-            Entry { point, normal, incidence_squared: remainder * squared, parts: None, active }
-                .within_range()
+        let (force, torque) = (push.force(), push.torque_about(&self.centre));
+        let along = force.dot(&self.axis);
+        let across = force - self.axis * along;
+        let aside = self.axis.cross(&across);
+        let inverse_force = T::one() / push.squared();
+        let pitch = force.dot(&torque) * inverse_force;
+        let turning = (torque.dot(&self.axis) - pitch * along) * self.curvature;
+        let squared = across.norm_squared();
+        let pressing_squared = squared - turning * turning;
+        // What is left across the axis of a force that is parallel to it is noise.
+        let least_squared = push.squared() * (T::EPSILON * T::EPSILON * T::literal(16.0));
+        (pressing_squared >= T::zero() && squared > least_squared).then(|| {
+            let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
+            let normal = (aside * -turning - across * pressing) * inverse;
+            let height = (torque.dot(&aside) - self.radius * along * pressing) * inverse;
+            Entry {
+                point: self.centre + normal * self.radius + self.axis * height,
+                normal,
+                incidence_squared: pressing_squared * inverse_force,
+                parts: Some(ForceParts {
+                    normal: pressing,
+                    tangential: (along * along + turning * turning).root(),
+                }),
+                active: self.is_active(height),
+            }
+            .within_range()
         })
     }
 
