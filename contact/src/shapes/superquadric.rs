@@ -2,8 +2,8 @@
 
 use crate::uncertainty::geometry::stretched;
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
-use fingertip_surfaces::numeric::vectors::{larger, largest, length, tangents, unit_or, wide};
-use fingertip_surfaces::{ForceLine, Gauge, LocalSurface, SmoothSurface, Superquadric};
+use fingertip_surfaces::numeric::vectors::{larger, largest, length, smaller, tangents, unit_or, wide};
+use fingertip_surfaces::{ForceLine, Gauge, LocalSurface, Powers, SmoothSurface, Superquadric, quickly_fine};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -14,7 +14,7 @@ use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{Search, SoftContact, newton_soft_contacts};
 
 /// Steps of [`quickly`].
-const QUICK_STEPS: usize = 8;
+const QUICK_STEPS: usize = 12;
 
 /// By how much rounding may grow where [`quickly`] answers; beyond, the contact is refined to the last digit.
 const STEADY: f64 = 8.0;
@@ -67,95 +67,117 @@ fn search_finely<T: Real>(
 /// The contact of a force that presses steeply, by Newton's method on the surface.
 ///
 /// It begins where the contact would be on the ellipsoid with the same semi-axes
-/// (`docs/theory/contact.md#central-quadrics`). The first steps of double precision are taken in single. The last, of
-/// which the square is nothing, is not evaluated. On a convex body any contact that presses is the only one; `None`
-/// where the steps do not settle, where rounding grows, and of numbers that carry more than a value, such as dual
-/// ones: the steps that are enough for the value are too few for its derivative.
+/// (`docs/theory/contact.md#central-quadrics`), and where steps from there lead to where the force pulls, once more where
+/// the normal is the one that it would have on the ellipsoid. The last step, of which the square is nothing, is not
+/// evaluated. On a convex body any contact that presses is the only one; `None` where the steps do not settle, where
+/// rounding grows, and of numbers that carry more than a value, such as dual ones: the steps that are enough for the
+/// value are too few for its derivative.
 #[inline(never)]
 fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
     if T::CARRIES_MORE {
         return None;
     }
-    let (f, m, axes) = (push.force(), push.torque(), shape.semi_axes());
-    let mut start = on_ellipsoid(&axes, &f, &m).component_mul(&axes);
-    if T::EPSILON.to_f64() <= f64::EPSILON {
-        let scale = f.amax().normalising_factor();
-        let narrow = |v: &Vector3<T>| v.map(|x| x.to_f64() as f32);
-        let load = [narrow(&(f * scale)), narrow(&(m * scale))];
-        let Arrival { point, step, .. } = arrive(&shape.rounded(), &load, narrow(&start), 0.03)?;
-        start = (point + step).map(|x| T::literal(f64::from(x)));
-    }
-    let arrival = arrive(shape, &[f, m], start, T::EPSILON.root())?;
-    let point = arrival.point + arrival.step;
+    // In units of its size and of the force no square leaves the range.
+    let (force, torque) = (push.force(), push.torque());
+    let (strength, unit) = (force.amax().normalising_factor(), shape.semi_axes().amax().normalising_factor());
+    let (shape, f, m) = (shape.scaled(unit), force * strength, torque * (strength * unit));
+    let arrival = arrive(&shape, &f, &m)?;
+    let place = arrival.place + arrival.step;
     let turned = arrival.normal + arrival.turn;
     let normal = turned / turned.norm_squared().root();
-    let (spin_torque, pressing) = (normal.dot(&(m - point.cross(&f))), -f.dot(&normal));
+    let (spin, pressing) = (normal.dot(&(m - place.cross(&f))), -f.dot(&normal));
     // By how much the contact answers to a torque, times the torque that rounding of a place makes.
-    let (strength, twist) = (push.squared().root(), (spin_torque * arrival.steepest).abs());
-    let growth = (twist + pressing) * (twist + strength) * arrival.inverse;
-    let steep = pressing >= larger(strength, twist) * flat();
-    let spins_little = spin_torque.abs() <= strength * point.amax();
+    let (whole, twist) = (f.norm_squared().root(), (spin * arrival.steepest).abs());
+    let growth = (twist + pressing) * (twist + whole) * arrival.inverse;
+    let steep = pressing >= larger(whole, twist) * flat();
+    let spins_little = spin.abs() <= whole * place.amax();
     let steady = steep & spins_little & (growth <= T::literal(STEADY));
+    let point = place / unit;
+    let spin_torque = normal.dot(&(torque - point.cross(&force)));
     steady.then_some(SoftContact { point, normal, spin_torque, active: true })
 }
 
 /// A place of the surface, the last step away from it, and how the normal turns on that.
 struct Arrival<T: Real> {
-    point: Vector3<T>,
+    place: Vector3<T>,
     step: Vector3<T>,
     normal: Vector3<T>,
     turn: Vector3<T>,
     /// One over the determinant of the equations.
     inverse: T,
-    /// The largest curvature at most.
+    /// The sum of the curvatures.
     steepest: T,
 }
 
-/// Steps to the contact, until one is at most so fine, of the size and of the radius of curvature; and of each
-/// coordinate too, unless it is a start only that is asked for.
+/// Steps to the contact, until one is so fine that its square is nothing, of the size, of the radius of curvature, and of
+/// each coordinate. Powers are quick ones, until a step of these is so fine of the first two that the next one will be.
 ///
-/// At a place `c` of the surface `M = m − c × f` shall be along the normal; a step `a` across it has
-/// `(τ EᵀWE + f·n J₂) Eᵀa = EᵀM` with `τ = n·M` (`docs/theory/contact.md#general-surfaces`). Behind a step the place is
-/// brought back along the ray from the centre, which takes no evaluation: of a gauge the gradient is the same there, and
-/// the Hessian as much larger as the place is nearer.
+/// At a place `c` of the surface `M = m − c × f` shall be along the normal `n`; a step `a` across it has
+/// `(τ W + f·n n×) a = M` in the plane across, with `τ = n·M` (`docs/theory/contact.md#general-surfaces`). The Hessian of
+/// the gauge, over the gradient's length, is `W = k₁ q qᵀ + k₂ s sᵀ`, and so
+///
+/// ```text
+/// a = (τ Σ kᵢ (n × qᵢ)(n × qᵢ)·M + f·n n × M)/(τ² k₁ k₂ (n·(q × s))² + (f·n)²)
+/// ```
+///
+/// which is written here for the gradient `g` in place of `n`. Behind a step the place is brought back along the ray from
+/// the centre, which takes no evaluation: of a gauge the gradient is the same there, and the Hessian as much larger as the
+/// place is nearer.
 #[inline(always)]
-fn arrive<T: Real>(
-    shape: &Superquadric<T>,
-    [f, m]: &[Vector3<T>; 2],
-    mut c: Vector3<T>,
-    fine: T,
-) -> Option<Arrival<T>> {
+fn arrive<T: Real>(shape: &Superquadric<T>, f: &Vector3<T>, m: &Vector3<T>) -> Option<Arrival<T>> {
+    let axes = shape.semi_axes();
+    let on_sphere = on_ellipsoid(&axes, f, m);
+    let mut c = on_sphere.component_mul(&axes);
+    let mut is_first = true;
+    let exactly_fine = T::EPSILON.root();
+    let (mut powers, mut fine) = (Powers::Quick, quickly_fine());
     for _ in 0..QUICK_STEPS {
-        let Gauge { value, gradient, bends: [(k1, q), (k2, s)] } = shape.gauge_near(&c);
+        let Gauge { value, gradient: g, bends: [(k1, q), (k2, s)] } = shape.gauge_near(&c, powers);
         c *= T::one() / value;
-        let inverse = T::one() / gradient.norm_squared().root();
-        let n = gradient * inverse;
-        let (e1, e2) = tangents(&n);
-        let bend = value * inverse;
-        let (k1, k2) = (k1 * bend, k2 * bend);
-        let (q1, q2, s1, s2) = (q.dot(&e1), q.dot(&e2), s.dot(&e1), s.dot(&e2));
-        let (w11, w12, w22) =
-            (k1 * q1 * q1 + k2 * s1 * s1, k1 * q1 * q2 + k2 * s1 * s2, k1 * q2 * q2 + k2 * s2 * s2);
         let rest = m - c.cross(f);
-        let (r1, r2, spin, pressing) = (e1.dot(&rest), e2.dot(&rest), n.dot(&rest), f.dot(&n));
-        let [v11, v12, v22] = [w11, w12, w22].map(|w| w * spin);
-        let inverse = T::one() / (v11 * v22 - v12 * v12 + pressing * pressing);
-        let a1 = (v22 * r1 - (v12 + pressing) * r2) * inverse;
-        let a2 = (v11 * r2 - (v12 - pressing) * r1) * inverse;
-        let step = e1 * a1 + e2 * a2;
-        let size = step.norm_squared().root();
-        let steepest = larger(w11.abs(), w22.abs()) + w12.abs();
+        let (pulling, turning) = (f.dot(&g), g.dot(&rest));
+        if pulling > T::zero() {
+            if !is_first {
+                return None;
+            }
+            is_first = false;
+            (_, c) = shape.farthest_along(&on_sphere.component_div(&axes));
+            continue;
+        }
+        let per_square = T::one() / g.norm_squared();
+        let (beside_q, beside_s) = (g.cross(&q), g.cross(&s));
+        let volume = g.dot(&q.cross(&s));
+        let spin = turning * value * per_square;
+        let across = beside_q * (k1 * beside_q.dot(&rest)) + beside_s * (k2 * beside_s.dot(&rest));
+        let determinant = (spin * k1 * volume) * (spin * k2 * volume) + pulling * pulling;
+        let step = (across * spin + g.cross(&rest) * pulling) / determinant;
+        let inverse = per_square.root();
+        let trace = k1 * beside_q.norm_squared() + k2 * beside_s.norm_squared();
+        let steepest = trace * value * per_square * inverse;
+        let size_squared = step.norm_squared();
         let reach = c.amax();
         // Next to a plane of two axes the curvature changes within as much as the place is away from it.
         let within = (0..3).fold(true, |within, k| within & (step[k].abs() <= c[k].abs() * fine));
-        let settled = (size <= fine * reach) & (size * steepest <= fine);
-        if settled & (within | (fine > T::literal(0.01))) {
-            let turn = e1 * (w11 * a1 + w12 * a2) + e2 * (w12 * a1 + w22 * a2);
-            return Some(Arrival { point: c, step, normal: n, turn, inverse, steepest });
+        let finest = smaller(reach, T::one() / steepest) * fine;
+        let settled = size_squared <= finest * finest;
+        if settled & (powers == Powers::Quick) {
+            (powers, fine) = (Powers::Exact, exactly_fine);
+        } else if settled & within {
+            let n = g * inverse;
+            let bend = value * inverse;
+            let turn = q * (k1 * bend * q.dot(&step)) + s * (k2 * bend * s.dot(&step));
+            return Some(Arrival {
+                place: c,
+                step,
+                normal: n,
+                turn: turn - n * n.dot(&turn),
+                inverse: T::one() / (determinant * per_square),
+                steepest,
+            });
         }
         // A long step would lead to where the surface is another one. False for a NaN, too.
         let most = reach * T::literal(0.5);
-        c += if size <= most { step } else { step * (most / size) };
+        c += if size_squared <= most * most { step } else { step * (most / size_squared.root()) };
     }
     None
 }

@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::Vector3;
 
 use super::superquadric_entry::{finely, quickly};
-use super::superquadric_gauge::Gauge;
+use super::superquadric_gauge::{Gauge, Powers};
 use crate::numeric::roots::{bisected, first_of_convex};
 use crate::numeric::support;
 use crate::numeric::twofold::{Twofold, Wide};
@@ -103,6 +103,14 @@ impl<T: Real> Superquadric<T> {
         Superquadric::new(wide(&self.semi_axes), self.exponents.map(Real::to_f64)).ok()
     }
 
+    /// The same in another unit of length: all lengths times a power of two.
+    #[doc(hidden)]
+    #[inline]
+    #[must_use]
+    pub fn scaled(&self, by: T) -> Self {
+        Self { semi_axes: self.semi_axes * by, curvatures: self.curvatures / by, ..*self }
+    }
+
     /// The semi-axes \[m\].
     #[inline]
     #[must_use]
@@ -123,6 +131,14 @@ impl<T: Real> Superquadric<T> {
         let (plane, dx, dy) = norm(v.x, v.y, inner);
         let (value, d_plane, dz) = norm(plane, v.z, outer);
         (value, Vector3::new(d_plane * dx, d_plane * dy, dz))
+    }
+
+    /// How far the body reaches along a direction, and the point where it does so: where it is the outward normal.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn farthest_along(&self, direction: &Vector3<T>) -> (T, Vector3<T>) {
+        let (height, gradient) = Self::nested(&direction.component_mul(&self.semi_axes), self.duals);
+        (height, gradient.component_mul(&self.semi_axes))
     }
 
     /// The gauge of a scaled point: 1 on the surface, less inside, convex along every line
@@ -172,10 +188,7 @@ impl<T: Real> ActiveSurface<T> for Superquadric<T> {
 
     /// By the support function, which is the dual norm of the scaled normal.
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
-        let found = support::closest_approach(line, |normal| {
-            let (height, gradient) = Self::nested(&normal.component_mul(&self.semi_axes), self.duals);
-            (height, gradient.component_mul(&self.semi_axes))
-        });
+        let found = support::closest_approach(line, |normal| self.farthest_along(normal));
         // On a nearly flat side the support point is ill-conditioned, but the closest point lies on
         // the line parallel to the given one that just touches: where the gauge is least on it.
         let reach = self.semi_axes.max() * T::literal(4.0);
@@ -273,7 +286,8 @@ impl<T: Real> SmoothSurface<T> for Superquadric<T> {
         // Brought near the surface, where no power leaves the range.
         let most = point.component_mul(&self.curvatures).amax();
         let shrink = if most > T::zero() { T::one() / most } else { T::one() };
-        let Gauge { value, gradient, bends: [(around, q), (along, s)] } = self.gauge_near(&(point * shrink));
+        let Gauge { value, gradient, bends: [(around, q), (along, s)] } =
+            self.gauge_near(&(point * shrink), Powers::Exact);
         let hessian = q * q.transpose() * (around * shrink) + s * s.transpose() * (along * shrink);
         Level { value: value / shrink - T::one(), gradient, hessian }
     }

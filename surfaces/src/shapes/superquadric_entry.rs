@@ -4,12 +4,12 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use super::superquadric::Superquadric;
-use super::superquadric_gauge::Gauge;
+use super::superquadric_gauge::{Gauge, Powers, quickly_fine};
 use crate::numeric::vectors::larger;
 use crate::{Entry, ForceLine};
 
 /// Steps from a start that is near, and from one that may be near tangency.
-const QUICK_STEPS: usize = 8;
+const QUICK_STEPS: usize = 10;
 const STEPS: usize = 40;
 
 /// The least cosine of incidence that [`quickly`] answers for: below, rounding grows more than threefold.
@@ -17,8 +17,7 @@ const STEEP: f64 = 0.3;
 
 /// Where a force enters that presses steeply.
 ///
-/// It begins where the line enters the ellipsoid with the same semi-axes. The first steps of double precision are taken
-/// in single. `None`, which says nothing, where the force presses at a flat angle, misses or is beside a plane of two axes
+/// It begins where the line enters the ellipsoid with the same semi-axes. `None`, which says nothing, where the force presses at a flat angle, misses or is beside a plane of two axes
 /// where the surface is bent sharply; and of numbers that carry more than a value, such as dual ones: the steps that are
 /// enough for the value are too few for its derivative.
 #[inline(never)]
@@ -29,14 +28,8 @@ pub(super) fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> 
     let Line { point, direction } = push.line();
     let scaled = Scaled::new(&point, &direction, &shape.curvatures);
     let remainder = larger(T::one() - scaled.foot.norm_squared(), T::zero());
-    let mut start = -(remainder / scaled.squared).root();
-    if T::EPSILON.to_f64() <= f64::EPSILON {
-        let narrow = |x: T| x.to_f64() as f32;
-        let rounded = scaled.map(narrow);
-        let arrival = rounded.arrive(&shape.rounded(), narrow(start), 1e-3, QUICK_STEPS)?;
-        start = T::literal(f64::from(arrival.along));
-    }
-    let arrival = scaled.arrive(shape, start, T::EPSILON.root(), QUICK_STEPS)?;
+    let start = -(remainder / scaled.squared).root();
+    let arrival = scaled.arrive(shape, start, QUICK_STEPS)?;
     let (point, normal) = arrival.in_place(shape);
     let incidence = -normal.dot(&direction);
     (arrival.is_smooth & (incidence >= T::literal(STEEP))).then(|| {
@@ -56,7 +49,7 @@ pub(super) fn finely<T: Real>(
     let shape = shape.in_double()?;
     let scaled = Scaled::new(&line.point, &line.direction, &shape.curvatures);
     let start = (near.component_mul(&shape.curvatures) - scaled.foot).dot(&scaled.direction) / scaled.squared;
-    let arrival = scaled.arrive(&shape, start, f64::EPSILON.root(), STEPS)?;
+    let arrival = scaled.arrive(&shape, start, STEPS)?;
     let (point, normal) = arrival.in_place(&shape);
     (point.sum() + normal.sum()).is_number().then_some([point, normal])
 }
@@ -71,7 +64,6 @@ struct Scaled<T: Real> {
 
 /// A place on a line, and its normal on a superquadric.
 struct Arrival<T: Real> {
-    along: T,
     /// Over the semi-axes.
     point: Vector3<T>,
     /// Of the gauge by those.
@@ -89,26 +81,24 @@ impl<T: Real> Scaled<T> {
         Self { foot: point - direction * (point.dot(&direction) / squared), direction, squared }
     }
 
-    #[inline(always)]
-    fn map<U: Real>(&self, f: impl Fn(T) -> U) -> Scaled<U> {
-        Scaled { foot: self.foot.map(&f), direction: self.direction.map(&f), squared: f(self.squared) }
-    }
-
-    /// Steps to where the line enters, until one is at most so fine, of the size and of each coordinate.
+    /// Steps to where the line enters, until one is so fine, of the size and of each coordinate, that its square is
+    /// nothing. Powers are quick ones, until a step of these is so fine that the next one will be.
     ///
     /// The gauge is convex along a line, so that a step of Newton's method from without never oversteps the entry
     /// (`docs/theory/surfaces.md#convex-bodies-with-a-gauge`); Halley's, with the second derivative, is shorter and
     /// better where that changes little. A start from where the line leads outward is exchanged for one before the solid,
     /// and Newton's steps alone are taken from there: if the line leads outward again, it misses.
     #[inline(always)]
-    fn arrive(&self, shape: &Superquadric<T>, start: T, fine: T, most: usize) -> Option<Arrival<T>> {
+    fn arrive(&self, shape: &Superquadric<T>, start: T, most: usize) -> Option<Arrival<T>> {
         let (one, two, direction) = (T::one(), T::literal(2.0), &self.direction);
         // Scaled, the solid lies within a cube of half edge 1, that within a ball.
         let before = -(larger(T::literal(3.03) - self.foot.norm_squared(), T::zero()) / self.squared).root();
         let (mut t, mut exchanged) = (larger(start, before), false);
+        let exactly_fine = T::EPSILON.root();
+        let (mut powers, mut fine) = (Powers::Quick, quickly_fine());
         for _ in 0..most {
             let point = self.foot + direction * t;
-            let Gauge { value, gradient, bends: [(k1, q), (k2, s)] } = shape.gauge_scaled(&point);
+            let Gauge { value, gradient, bends: [(k1, q), (k2, s)] } = shape.gauge_scaled(&point, powers);
             let slope = gradient.dot(direction);
             // False for a NaN, too.
             if !(slope < T::zero()) {
@@ -127,10 +117,12 @@ impl<T: Real> Scaled<T> {
             // Next to a plane of two axes the curvature changes within as much as the place is away from it.
             let within = (0..3).fold(true, |within, k| within & (away[k].abs() <= point[k].abs() * fine));
             let nothing = away.amax() <= T::EPSILON * two;
-            if within | nothing {
+            if (within | nothing) & (powers == Powers::Quick) {
+                (powers, fine) = (Powers::Exact, exactly_fine);
+            } else if within | nothing {
                 let turn = q * (k1 * along_q * step) + s * (k2 * along_s * step);
                 let gradient = if within { gradient + turn } else { gradient };
-                return Some(Arrival { along: t + step, point: point + away, gradient, is_smooth: within });
+                return Some(Arrival { point: point + away, gradient, is_smooth: within });
             }
             t += step;
         }

@@ -17,21 +17,26 @@ pub struct Gauge<T: Real> {
     pub bends: [(T, Vector3<T>); 2],
 }
 
-impl<T: Real> Superquadric<T> {
-    /// The same in single precision, as well as that has it.
-    #[doc(hidden)]
-    #[inline]
-    pub fn rounded(&self) -> Superquadric<f32> {
-        let narrow = |x: T| x.to_f64() as f32;
-        Superquadric {
-            semi_axes: self.semi_axes.map(narrow),
-            curvatures: self.curvatures.map(narrow),
-            norms: self.norms.map(narrow),
-            duals: self.duals.map(narrow),
-            exponents: self.exponents.map(narrow),
-        }
-    }
+/// To how many digits the powers of a gauge are taken.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Powers {
+    /// Those of the type.
+    Exact,
+    /// Some eight, for the steps of a search but the last, which costs a third of the time.
+    Quick,
+}
 
+/// How fine a step with quick powers is that is the last of them: its square is as fine as these powers, or as what is
+/// nothing when squared once more.
+#[doc(hidden)]
+#[must_use]
+#[inline]
+pub fn quickly_fine<T: Real>() -> T {
+    T::EPSILON.root().root() * T::literal(0.25)
+}
+
+impl<T: Real> Superquadric<T> {
     /// The gauge at a point whose coordinates over the semi-axes are 2 at most, as they are near the surface.
     ///
     /// With `x ≥ y` and `z` for these coordinates' sizes, `p` and `P` for the norms `2/e₂` and `2/e₁`, it is `F^(1/P)`,
@@ -48,9 +53,9 @@ impl<T: Real> Superquadric<T> {
     /// Where a second derivative is infinite (on an axis, for `p < 2`) a large finite number stands for it.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn gauge_near(&self, point: &Vector3<T>) -> Gauge<T> {
+    pub fn gauge_near(&self, point: &Vector3<T>, powers: Powers) -> Gauge<T> {
         let v = point.component_mul(&self.curvatures);
-        let Gauge { value, gradient, bends } = self.gauge_scaled(&v);
+        let Gauge { value, gradient, bends } = self.gauge_scaled(&v, powers);
         Gauge {
             value,
             gradient: gradient.component_mul(&self.curvatures),
@@ -60,10 +65,10 @@ impl<T: Real> Superquadric<T> {
 
     /// The same by the coordinates over the semi-axes.
     #[inline(always)]
-    pub(super) fn gauge_scaled(&self, v: &Vector3<T>) -> Gauge<T> {
+    pub(super) fn gauge_scaled(&self, v: &Vector3<T>, powers: Powers) -> Gauge<T> {
         let (zero, one) = (T::zero(), T::one());
         let ([outer, inner], half) = (self.norms, T::literal(0.5));
-        let inverse_outer = self.exponents[0] * half;
+        let [inverse_outer, inverse_inner] = self.exponents.map(|e| e * half);
         let [x, y, z] = [v.x.abs(), v.y.abs(), v.z.abs()];
         let swapped = y > x;
         let (most, least) = if swapped { (y, x) } else { (x, y) };
@@ -75,14 +80,28 @@ impl<T: Real> Superquadric<T> {
         let steep =
             |a: T, b: T, p: T| if b > T::EPSILON { a / (b * b) } else { T::EPSILON.power(p - one - one) };
         let share = least / most;
-        // These three do not wait for one another.
-        let (power, up, most_power) = (share.power(inner), z.power(outer), most.power(outer));
-        let sum = one + power;
-        let bent = if outer == inner { sum } else { sum.power(outer * self.exponents[1] * half) };
-        let around = most_power * bent;
+        let (power, up, around) = match powers {
+            Powers::Exact => {
+                // These three do not wait for one another.
+                let (power, up, most_power) = (share.power(inner), z.power(outer), most.power(outer));
+                let sum = one + power;
+                let bent = if outer == inner { sum } else { sum.power(outer * inverse_inner) };
+                (power, up, most_power * bent)
+            }
+            Powers::Quick => {
+                let [most, least, z] = [most, least, z].map(T::quick_logarithm);
+                let power = (inner * (least - most)).quick_power_of_two();
+                let around = if outer == inner {
+                    (outer * most).quick_power_of_two() * (one + power)
+                } else {
+                    (outer * (most + (one + power).quick_logarithm() * inverse_inner)).quick_power_of_two()
+                };
+                (power, (outer * z).quick_power_of_two(), around)
+            }
+        };
         let whole = around + up;
-        let value = root_near_one(whole, inverse_outer);
-        let (slope, weight) = (value / whole, one / sum);
+        let value = root_near_one(whole, inverse_outer, powers);
+        let (slope, weight) = (value / whole, one / (one + power));
         // Of the larger coordinate and of the smaller, by these. An octahedron's is the one on its edges.
         let aside = if inner > one { over(power, share) } else { one };
         let (along, aside) = (weight / most, aside * weight / most);
@@ -106,25 +125,80 @@ impl<T: Real> Superquadric<T> {
         let zero = T::zero();
         let gradient = Vector3::new(zero, zero, T::one().copysign(z));
         let nothing = [(zero, Vector3::zeros()); 2];
-        if !(z.abs() > zero) {
+        let aside = z * T::EPSILON;
+        // In the centre, or so near that nothing is beside it.
+        if !(aside.abs() > zero) {
             return Gauge { value: zero, gradient: Vector3::zeros(), bends: nothing };
         }
-        let beside = self.gauge_scaled(&Vector3::new(z * T::EPSILON, zero, z));
+        let beside = self.gauge_scaled(&Vector3::new(aside, zero, z), Powers::Exact);
         Gauge { value: z.abs(), gradient, bends: beside.bends }
     }
 }
 
 /// `x^a` for `a` between 0 and 1, sooner where `x` is near 1.
 #[inline(always)]
-fn root_near_one<T: Real>(x: T, a: T) -> T {
+fn root_near_one<T: Real>(x: T, a: T, powers: Powers) -> T {
     let one = T::one();
-    let d = x - one;
+    let (d, half) = (x - one, T::literal(0.5));
+    if powers == Powers::Quick {
+        // Padé's, off by d³/31 at most, which is nothing where the search ends.
+        return if d.abs() < T::literal(0.25) {
+            (one + d * half * (one + a)) / (one + d * half * (one - a))
+        } else {
+            (x.quick_logarithm() * a).quick_power_of_two()
+        };
+    }
     if !(d.abs() < T::literal(1e-3)) {
         return x.power(a);
     }
     // The binomial series, of which the sixth term is less than ε/2.
-    let [half, third, quarter] = [1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0].map(T::literal);
+    let [third, quarter] = [1.0 / 3.0, 1.0 / 4.0].map(T::literal);
     let [two, three] = [2.0, 3.0].map(T::literal);
     let rest = one + d * quarter * (a - three);
     one + a * d * (one + d * half * (a - one) * (one + d * third * (a - two) * rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// Quick powers tell where to step: what they say is off by their digits, times the power; the value of what is
+        /// off the surface by Padé's remainder.
+        #[test]
+        fn quick_powers_say_the_same_to_fewer_digits(
+            v in [0.01_f64..1.0, 0.01..1.0, 0.01..1.0], exponents in [0.1_f64..1.99, 0.1..1.99],
+        ) {
+            let shape = Superquadric::new(Vector3::repeat(1.0), exponents).unwrap();
+            let away = Vector3::from(v) / shape.gauge_near(&v.into(), Powers::Exact).value;
+            for stretch in [1.0, 1.01] {
+                let point = away * stretch;
+                let [exact, quick] = [Powers::Exact, Powers::Quick].map(|powers| shape.gauge_near(&point, powers));
+                let off = (stretch - 1.0).powi(3) * shape.norms[0].powi(3) / 31.0;
+                prop_assert!((quick.value - exact.value).abs() < 1e-7 + off, "{} {}", quick.value, exact.value);
+                prop_assert!((quick.gradient - exact.gradient).norm() < (1e-6 + off) * exact.gradient.norm());
+                for ((k, way), (exact_k, exact_way)) in quick.bends.into_iter().zip(exact.bends) {
+                    prop_assert!((k - exact_k).abs() <= (1e-6 + off) * exact_k.abs(), "{k} {exact_k}");
+                    prop_assert!((way - exact_way).norm() <= 1e-6 * exact_way.norm());
+                }
+            }
+        }
+    }
+
+    /// However near the centre, the gauge is told in one call.
+    #[test]
+    fn the_third_axis_ends_in_the_centre() {
+        let shape = Superquadric::<f32>::new(Vector3::new(1.0, 2.0, 0.5), [0.7, 1.3]).unwrap();
+        for z in [0.5, -1e-3, 1e-30, f32::MIN_POSITIVE, f32::from_bits(1), 0.0, f32::NAN, f32::INFINITY] {
+            for powers in [Powers::Exact, Powers::Quick] {
+                let gauge = shape.gauge_near(&Vector3::new(0.0, 0.0, z), powers);
+                let near = z.abs() < 1e-40 || z.is_nan();
+                let expected = if near { 0.0 } else { 2.0 * z.abs() };
+                assert_eq!(gauge.value, expected, "{z}");
+                assert_eq!(gauge.gradient.z, if near { 0.0 } else { 2.0_f32.copysign(z) }, "{z}");
+            }
+        }
+    }
 }

@@ -4,6 +4,7 @@
 mod dual;
 pub(crate) mod hardware_sqrt;
 pub(crate) mod largest;
+mod quick_powers;
 mod real;
 pub(crate) mod rounding;
 

@@ -73,6 +73,21 @@ pub trait Real: RealField + Copy {
         self.powf(exponent)
     }
 
+    /// The logarithm to the base 2 of a positive number to some eight digits, or what digits the type has, several times as
+    /// fast: for the steps of a search but the last. Of other numbers a number of no meaning.
+    #[doc(hidden)]
+    #[inline]
+    fn quick_logarithm(self) -> Self {
+        self.log2()
+    }
+
+    /// 2 to this power, as [`quick_logarithm`](Self::quick_logarithm).
+    #[doc(hidden)]
+    #[inline]
+    fn quick_power_of_two(self) -> Self {
+        self.exp2()
+    }
+
     /// `e` to this power.
     #[inline]
     fn exponential(self) -> Self {
@@ -222,7 +237,7 @@ fn splitter_by_epsilon<T: Real>() -> T {
 }
 
 macro_rules! real {
-    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path, $($name:ident($($other:ident)?) = $function:ident),*) => {
+    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path, $quick_logarithm:path, $quick_power:path, $($name:ident($($other:ident)?) = $function:ident),*) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
             const LEAST_NORMAL: Self = $float::MIN_POSITIVE;
@@ -242,6 +257,16 @@ macro_rules! real {
             #[inline]
             fn root(self) -> Self {
                 $root(self)
+            }
+
+            #[inline]
+            fn quick_logarithm(self) -> Self {
+                $quick_logarithm(self)
+            }
+
+            #[inline]
+            fn quick_power_of_two(self) -> Self {
+                $quick_power(self)
             }
 
             $(
@@ -279,6 +304,8 @@ real!(
     0xff,
     4_097.0,
     crate::scalar::hardware_sqrt::sqrt_f32,
+    crate::scalar::quick_powers::logarithm_f32,
+    crate::scalar::quick_powers::power_f32,
     power(exponent) = powf,
     exponential() = expf,
     exponential_less_one() = expm1f,
@@ -297,6 +324,8 @@ real!(
     0x7ff,
     134_217_729.0,
     nalgebra::ComplexField::sqrt,
+    crate::scalar::quick_powers::logarithm_f64,
+    crate::scalar::quick_powers::power_f64,
     power(exponent) = pow,
     exponential() = exp,
     exponential_less_one() = expm1,
