@@ -77,7 +77,7 @@ impl<T: Real> SoftFinger<T> {
             #[inline(always)]
             |wrench| {
                 let (push, is_in_range) = ForceLine::tried(wrench, self.least_squared);
-                let contact = surface.sole_soft_contact(&push);
+                let contact = surface.sole_soft_contact_in_columns(&push);
                 let told = is_in_range & contact.is_some_and(|found| found.active & is_number(&found));
                 (contact.map_or_else(nothing, |found| (found.point, found.normal, found.spin_torque)), told)
             },

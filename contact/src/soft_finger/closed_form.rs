@@ -21,6 +21,7 @@ pub(crate) fn is_active<T: Real, S: ActiveSurface<T>>(surface: &S, contact: &Sof
 macro_rules! soft_finger {
     ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
         $(, sole |$only:ident, $load:ident| $sole:expr)?
+        $(, columns |$each:ident, $many:ident| $columns:expr)?
         $(, double |$coarse:ident, $fine:ident| $again:expr)?
         $(, surely |$sure:ident, $whole:ident, $pose:ident, $found:ident| $surely:expr)?
         $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?
@@ -43,6 +44,15 @@ macro_rules! soft_finger {
             fn sole_soft_contact(&self, $load: &fingertip_surfaces::ForceLine<T>) -> Option<$crate::SoftContact<T>> {
                 let $only = self;
                 $sole
+            })?
+
+            $(#[inline(always)]
+            fn sole_soft_contact_in_columns(
+                &self,
+                $many: &fingertip_surfaces::ForceLine<T>,
+            ) -> Option<$crate::SoftContact<T>> {
+                let $each = self;
+                $columns
             })?
 
             $(fn soft_contact_in_double(

@@ -139,6 +139,14 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         None
     }
 
+    /// The same without a branch, for loops over columns: to the bit what [`sole_soft_contact`](Self::sole_soft_contact)
+    /// answers, or `None`. The default is that one.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn sole_soft_contact_in_columns(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        self.sole_soft_contact(push)
+    }
+
     /// The contact in double precision, for a narrower type, of a shape that has but one; `Err` says how the search
     /// ended. `None`, as the default answers, says nothing.
     ///
@@ -206,6 +214,11 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         (**self).sole_soft_contact(push)
+    }
+
+    #[inline(always)]
+    fn sole_soft_contact_in_columns(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        (**self).sole_soft_contact_in_columns(push)
     }
 
     #[inline]

@@ -1,0 +1,155 @@
+//! The rounded box.
+
+#[cfg(feature = "batch")]
+mod entry;
+mod parts;
+
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
+use fingertip_surfaces::numeric::vectors::{larger, largest, length, wide};
+use fingertip_surfaces::{LocalSurface, RoundedBox, SmoothSurface, Sphere};
+use fingertip_wrench::{Real, Wrench};
+use nalgebra::Vector3;
+
+use self::parts::{steeply_in_columns, steeply_on_rounded_box};
+use super::cylinder::on_round_side;
+use super::plane::on_plane;
+use super::sphere::on_sphere;
+use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger, told};
+use crate::soft_finger::double::{finely, is_steady as is_steady_at, narrow, widened};
+use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
+
+/// The contact by the closed forms of all faces, edges and corners: that of which the place is on its own part, or by rounding
+/// beside it.
+///
+/// For what Newton's method does not settle: it goes to and fro where a contact is next to a seam, at which the curvature
+/// jumps.
+#[cold]
+#[inline(never)]
+fn by_parts<T: Real>(shape: &RoundedBox<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+    let (half, rounding, zero) = (shape.half_extents(), shape.rounding(), T::zero());
+    let core = half.map(|half| half - rounding);
+    let force = wrench.force();
+    let least = largest(&force) * T::EPSILON * T::literal(4.0);
+    let mut best: Option<(SoftContact<T>, T)> = None;
+    let signs = [zero, T::one(), -T::one()];
+    for side in
+        signs.iter().flat_map(|x| signs.iter().flat_map(move |y| signs.map(|z| Vector3::new(*x, *y, z))))
+    {
+        let Some(found) = on_part(&side, &half, rounding, wrench) else { continue };
+        let beside = found.point.zip_zip_map(&core, &side, |x, core, side| {
+            if side.is_zero() { larger(x.abs() - core, zero) } else { zero }
+        });
+        let behind = found.normal.zip_map(&side, |normal, side| larger(-(normal * side), zero) * rounding);
+        let off = largest(&beside) + largest(&behind);
+        let is_best = best.is_none_or(|(_, least)| off < least);
+        if is_best && -force.dot(&found.normal) > least {
+            best = Some((found, off));
+        }
+    }
+    best.filter(|(_, off)| *off <= T::EPSILON.root() * rounding).map(|(found, _)| found)
+}
+
+/// On the whole plane, cylinder or ball of the part on this side of the core (−1, 0 or 1 along each axis).
+fn on_part<T: Real>(
+    side: &Vector3<T>,
+    half: &Vector3<T>,
+    rounding: T,
+    wrench: &Wrench<T>,
+) -> Option<SoftContact<T>> {
+    let (one, parts) = (T::one(), side.norm_squared());
+    if parts.is_zero() {
+        return None;
+    }
+    if parts <= one {
+        let origin = half.component_mul(side);
+        let found = on_plane(side, &wrench.force(), &wrench.torque_about(&origin))?;
+        return Some(SoftContact { point: found.point + origin, ..found });
+    }
+    let centre = half.zip_map(side, |half, side| (half - rounding) * side);
+    if parts <= one + one {
+        let along = side.map(|side| if side.is_zero() { one } else { T::zero() });
+        return on_round_side(&centre, &along, rounding, &wrench.force(), &wrench.torque_about(&centre));
+    }
+    on_sphere(&Sphere::new(centre, rounding).ok()?, wrench).ok()
+}
+
+/// By Newton's method, and where that does not settle, by all parts. Of a pure force, by numbers that are rounded to so much of
+/// them, which either hits or misses, only a contact at an angle that rounding does not make: the root of it is what rounding
+/// makes of a line that touches.
+fn search<T: Real>(
+    shape: &RoundedBox<T>,
+    wrench: &Wrench<T>,
+    last: Option<&Vector3<T>>,
+    epsilon: T,
+) -> Result<SoftContact<T>, Search<T>> {
+    let mut found = None;
+    let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
+    if found.is_none() && search == Search::Incomplete {
+        let force = wrench.force();
+        let is_pure = is_pure_force_of(&force, &wrench.torque(), epsilon);
+        let least = if is_pure { epsilon.root() * length(&force) } else { T::zero() };
+        found = by_parts(shape, wrench).filter(|found| -force.dot(&found.normal) >= least);
+    }
+    found.ok_or(search)
+}
+
+/// In double precision if the type is narrower: where the closed forms do not answer, the spin torque rules or the force
+/// meets it at a flat angle, and rounding decides between faces, edges and corners. What double precision does not find is
+/// left to the type.
+fn on_rounded_box<T: Real>(
+    shape: &RoundedBox<T>,
+    wrench: &Wrench<T>,
+    last: Option<&Vector3<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let in_double = |wrench: &Wrench<f64>| rounded_box_in_double(shape, wrench, last.map(wide).as_ref());
+    if is_asked_again::<T>()
+        && let Some(Ok(contact)) = in_double(&widened(wrench))
+    {
+        return Ok(narrow(&contact));
+    }
+    finely(search(shape, wrench, last, T::EPSILON), is_steady_at(wrench, shape.rounding()), wrench, in_double)
+}
+
+fn rounded_box_in_double<T: Real>(
+    shape: &RoundedBox<T>,
+    wrench: &Wrench<f64>,
+    last: Option<&Vector3<f64>>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    Some(search(&shape.in_double()?, wrench, last, T::EPSILON.to_f64()))
+}
+
+soft_finger!(
+    RoundedBox,
+    |shape, wrench, last, visit| told(on_rounded_box(shape, wrench, last), visit),
+    sole | shape,
+    push | steeply_on_rounded_box(shape, push),
+    columns | shape,
+    push | steeply_in_columns(shape, push),
+    double | shape,
+    wrench | rounded_box_in_double(shape, wrench, None),
+    patch | shape,
+    point | {
+        let (half_extents, rounding) = (wide(&shape.half_extents()), shape.rounding().to_f64());
+        let point = wide(point);
+        let beyond = core::array::from_fn(|k| point[k].abs() - half_extents[k] + rounding > 0.0);
+        Some(LocalSurface::RoundedBox { half_extents, rounding, beyond })
+    },
+    sizes | shape,
+    size,
+    point | of_rounded_box(shape, point).get(size).copied()
+);
+
+/// The three half extents, then the rounding: a half extent moves a face with the edges and corners at
+/// its rim; a rounding moves edges and corners inward as it grows.
+fn of_rounded_box<T: Real>(shape: &RoundedBox<T>, point: &Vector3<T>) -> [GeometrySensitivity<T>; 4] {
+    let level = shape.level(point);
+    let sign = point.map(|x| T::one().copysign(x));
+    let n = level.gradient;
+    let of = |value: T, turned: Vector3<T>| GeometrySensitivity::of_level(value, &turned, &n, &level.hessian);
+    let wider = |i: usize| {
+        let mut moved = Vector3::zeros();
+        moved[i] = sign[i];
+        of(-n.dot(&moved), -(level.hessian * moved))
+    };
+    [wider(0), wider(1), wider(2), of(n.dot(&sign) - T::one(), level.hessian * sign)]
+}

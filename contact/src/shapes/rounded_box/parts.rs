@@ -1,0 +1,196 @@
+//! The faces, edges and corners of a rounded box, and the closed form of the one that a contact is on.
+
+use core::hint::select_unpredictable;
+
+use fingertip_surfaces::{ForceLine, RoundedBox};
+use fingertip_wrench::Real;
+use nalgebra::Vector3;
+
+use crate::SoftContact;
+use crate::model::flat;
+use crate::shapes::cylinder::steeply_on_round_side;
+use crate::shapes::sphere::steeply_on_ball;
+use crate::soft_finger::closed_form::is_steady;
+
+/// Faces, edges and corners that are tried before the long way is taken.
+const PARTS: usize = 5;
+
+/// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face that the
+/// force presses on most, and then of the part that the contact lies on whose place the part before does not hold. A convex
+/// body has no other.
+#[inline(always)]
+pub(super) fn steeply_on_rounded_box<T: Real>(
+    shape: &RoundedBox<T>,
+    push: &ForceLine<T>,
+) -> Option<SoftContact<T>> {
+    let parts = Parts::new(shape);
+    let mut side = Parts::most_pressed(push);
+    for _ in 0..PARTS {
+        let count = side.norm_squared();
+        let found = if count <= T::one() {
+            parts.on_face(&side, push)?
+        } else if count <= T::literal(2.0) {
+            parts.on_edge(&side, push)?
+        } else {
+            parts.on_corner(&side, push)?
+        };
+        let next = parts.side_of(&side, &found);
+        if next == side {
+            return parts.is_sure(&side, &found).then_some(found);
+        }
+        side = next;
+    }
+    None
+}
+
+/// The same without a branch, of a face and of no more than two parts behind it.
+#[inline(always)]
+pub(super) fn steeply_in_columns<T: Real>(
+    shape: &RoundedBox<T>,
+    push: &ForceLine<T>,
+) -> Option<SoftContact<T>> {
+    let one = T::one();
+    let parts = Parts::new(shape);
+    let face = Parts::most_pressed(push);
+    let (on_face, is_on_face) = told_or_not(parts.on_face(&face, push));
+    let first = parts.side_of(&face, &on_face);
+    let (on_first, second, is_on_first) = parts.on_round(&first, push);
+    let (on_second, third, is_on_second) = parts.on_round(&second, push);
+    let (flat, settled) = (first == face, second == first);
+    let found = pick(flat, &on_face, &pick(settled, &on_first, &on_second));
+    let side = face.zip_map(&second, |a, b| select_unpredictable(flat, a, b));
+    let is_round = is_on_first & (settled | (is_on_second & (third == second)));
+    let is_found = is_on_face & (face.norm_squared() <= one) & (flat | is_round);
+    (is_found & parts.is_sure(&side, &found)).then_some(found)
+}
+
+/// A contact, and whether it is one.
+#[inline(always)]
+fn told_or_not<T: Real>(found: Option<SoftContact<T>>) -> (SoftContact<T>, bool) {
+    (found.unwrap_or_else(nowhere), found.is_some())
+}
+
+/// One of two, without a branch.
+#[inline(always)]
+fn pick<T: Real>(first: bool, a: &SoftContact<T>, b: &SoftContact<T>) -> SoftContact<T> {
+    let of = |a: T, b: T| select_unpredictable(first, a, b);
+    SoftContact {
+        point: Vector3::new(of(a.point.x, b.point.x), of(a.point.y, b.point.y), of(a.point.z, b.point.z)),
+        normal: Vector3::new(
+            of(a.normal.x, b.normal.x),
+            of(a.normal.y, b.normal.y),
+            of(a.normal.z, b.normal.z),
+        ),
+        spin_torque: of(a.spin_torque, b.spin_torque),
+        active: true,
+    }
+}
+
+/// In place of what is not found.
+#[inline(always)]
+fn nowhere<T: Real>() -> SoftContact<T> {
+    SoftContact { point: Vector3::zeros(), normal: Vector3::zeros(), spin_torque: T::zero(), active: false }
+}
+
+/// The faces, edges and corners of a rounded box, each on its side of the core: −1, 0 or 1 along each axis.
+struct Parts<T: Real> {
+    half: Vector3<T>,
+    core: Vector3<T>,
+    /// As near to a sharp edge as rounding brings a contact.
+    inner: Vector3<T>,
+    rounding: T,
+    curvature: T,
+}
+
+impl<T: Real> Parts<T> {
+    #[inline(always)]
+    fn new(shape: &RoundedBox<T>) -> Self {
+        let (half, rounding) = (shape.half_extents(), shape.rounding());
+        let core = half.map(|half| half - rounding);
+        let inner = core.map(|core| core - half.sum() * (T::literal(64.0) * T::EPSILON));
+        Self { half, core, inner, rounding, curvature: T::one() / rounding }
+    }
+
+    /// The face that the force presses on most.
+    #[inline(always)]
+    fn most_pressed(push: &ForceLine<T>) -> Vector3<T> {
+        let most = push.force().amax();
+        push.force().map(|f| select_unpredictable(f.abs() >= most, T::one().copysign(-f), T::zero()))
+    }
+
+    #[inline(always)]
+    fn on_face(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        on_face(&self.half.component_mul(side), side, push)
+    }
+
+    #[inline(always)]
+    fn on_edge(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        let along = side.map(|side| select_unpredictable(side == T::zero(), T::one(), T::zero()));
+        let centre = self.core.component_mul(side);
+        steeply_on_round_side((&centre, &along), self.rounding, push).map(|(found, _)| found)
+    }
+
+    #[inline(always)]
+    fn on_corner(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+        let found = steeply_on_ball(&self.core.component_mul(side), self.rounding, self.curvature, push);
+        found.filter(|contact| is_steady(push, contact, self.rounding * T::literal(0.5)))
+    }
+
+    /// On an edge or a corner, without a branch, the part that the contact is on then, and whether it is one.
+    #[inline(always)]
+    fn on_round(&self, side: &Vector3<T>, push: &ForceLine<T>) -> (SoftContact<T>, Vector3<T>, bool) {
+        let (edge, on_edge) = told_or_not(self.on_edge(side, push));
+        let (corner, on_corner) = told_or_not(self.on_corner(side, push));
+        let (one, count) = (T::one(), side.norm_squared());
+        let is_edge = (count > one) & (count <= one + one);
+        let is_corner = count > one + one;
+        let found = pick(is_edge, &edge, &corner);
+        (found, self.side_of(side, &found), (is_edge & on_edge) | (is_corner & on_corner))
+    }
+
+    /// The side of the part that a contact on another part's whole plane, cylinder or ball is beside.
+    #[inline(always)]
+    fn side_of(&self, side: &Vector3<T>, found: &SoftContact<T>) -> Vector3<T> {
+        let part = |k: usize| part_of(side[k], found.normal[k], found.point[k], self.core[k]);
+        Vector3::new(part(0), part(1), part(2))
+    }
+
+    /// Whether a contact on its own part is not next to a sharp edge, and made of numbers.
+    #[inline(always)]
+    fn is_sure(&self, side: &Vector3<T>, found: &SoftContact<T>) -> bool {
+        let inside = |k: usize| (side[k] != T::zero()) | (found.point[k].abs() <= self.inner[k]);
+        let clear = (side.norm_squared() > T::one()) | (inside(0) & inside(1) & inside(2));
+        clear & (found.point.sum() + found.spin_torque).is_number()
+    }
+}
+
+/// On which side of the core a contact is along an axis: where the part that it was found on is beside the core, that or none,
+/// as its normal says; where it is not, as its place says.
+#[inline(always)]
+pub(super) fn part_of<T: Real>(side: T, normal: T, place: T, core: T) -> T {
+    let kept = select_unpredictable(normal * side >= T::zero(), side, T::zero());
+    select_unpredictable(side == T::zero(), beyond(place, core), kept)
+}
+
+/// On the plane through a point with a normal: `docs/theory/contact.md#central-quadrics`. `None` where the force presses
+/// at a flat angle, and where the spin torque is more than the force has at a lever as long as the place is far: a plane
+/// answers to what rounding of the wrench makes of it in the other torques, and a pose that turns the wrench rounds it.
+#[inline(always)]
+fn on_face<T: Real>(origin: &Vector3<T>, normal: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    let force = push.force();
+    let pressing = -force.dot(normal);
+    if !(pressing > T::zero() && pressing * pressing >= flat::<T>() * flat::<T>() * push.squared()) {
+        return None;
+    }
+    let share = T::one() / pressing;
+    let point = origin + push.torque_about(origin).cross(normal) * share;
+    let spin_torque = -force.dot(&push.torque()) * share;
+    let is_steady = spin_torque * spin_torque <= push.squared() * point.norm_squared();
+    is_steady.then_some(SoftContact { point, normal: *normal, spin_torque, active: true })
+}
+
+/// On which side a coordinate is beyond the core: −1 or 1, or 0 if it is not.
+#[inline(always)]
+pub(super) fn beyond<T: Real>(coordinate: T, core: T) -> T {
+    select_unpredictable(coordinate.abs() > core, T::one().copysign(coordinate), T::zero())
+}
