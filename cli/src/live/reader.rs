@@ -317,6 +317,60 @@ mod tests {
         assert_eq!(words[..6], ["waiting", "running", "running", "running", "resting", "running"]);
     }
 
+    /// A sensor that was unplugged is said to be lost, to the view and over the bridges, until its samples come again.
+    #[test]
+    fn a_lost_sensor_is_told_of_until_it_is_back() {
+        let shared = Arc::new(Shared {
+            state: Mutex::new(State::new("test".to_owned())),
+            stop: Stop::default(),
+            hub: Hub::new(About::default()),
+        });
+        let how = |shared: &Shared| {
+            let status = shared.hub.status();
+            let state = shared.state();
+            (state.health.clone(), status.health, state.reconnections, status.reconnections)
+        };
+        /// Samples, then an end; before each it looks how the source is.
+        struct Looking<L>(u32, L);
+        impl<L: FnMut(u32) + Send> Feed for Looking<L> {
+            fn next(&mut self) -> Result<Next, SensorError> {
+                self.1(self.0);
+                self.0 += 1;
+                Ok(if self.0 < 4 { sample(f64::from(self.0), 1.0) } else { Next::End })
+            }
+            fn losses(&self) -> Losses {
+                Losses::default()
+            }
+        }
+        let seen = Arc::new(Mutex::new(Vec::new()));
+        let (of_feed, opened) = (Arc::clone(&shared), Arc::clone(&seen));
+        let open = move || {
+            let again = of_feed.hub.status().health.word() != "waiting";
+            if again {
+                opened.lock().unwrap().push(how(&of_feed));
+            }
+            let (shared, seen) = (Arc::clone(&of_feed), Arc::clone(&opened));
+            let look = move |given: u32| {
+                if again && given < 2 {
+                    seen.lock().unwrap().push(how(&shared));
+                    if given == 1 {
+                        shared.stop.ask();
+                    }
+                }
+            };
+            Ok(Box::new(Looking(0, look)) as Box<dyn Feed>)
+        };
+        let options = StreamOptions { silence: Duration::from_secs(3600), reconnect: true };
+        let stream = Stream::new(Box::new(open), options).unwrap();
+        read(&shared, stream, Rest::new(None), None).unwrap();
+        let seen = seen.lock().unwrap();
+        let lost = "the line was closed".to_owned();
+        let told = fingertip_bridges::Health::Lost(lost.clone());
+        assert_eq!(seen[0], (Health::Lost(lost.clone()), told.clone(), 0, 0));
+        assert_eq!(seen[1], (Health::Lost(lost), told, 1, 1));
+        assert_eq!(seen[2], (Health::Running, fingertip_bridges::Health::Running, 1, 1));
+    }
+
     #[test]
     fn a_zero_that_cannot_be_taken_leaves_the_one_before() {
         // At rest for a second, then, when a zero is asked for, no number for as long.
