@@ -209,7 +209,7 @@ fn selected(terms: &Terms, mut order: Vec<usize>) -> Terms {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
+    use alloc::collections::BTreeSet;
 
     use super::products;
 
