@@ -52,13 +52,17 @@ fn run(options: &Options) -> Result<bool, Failure> {
     let judged = equivalents::read(&root.join(".ci/mutation/equivalents"))?;
     let mut faults = all_faults(&root, &files)?;
     let equivalent = equivalents::take_out(&mut faults, &judged)?;
-    let left_out = workspace::leave_out(&mut faults, &root, &packages)?;
+    let left_out = workspace::leave_out(&mut faults, &root, &packages, workspace::is_root())?;
     faults.retain(|fault| is_asked_for(options, &root, &packages, &fault.file));
     println!(
-        "{} places for faults; {equivalent} more, in the whole project, are judged equivalent, and {left_out} stand in \
-         files that tests do not compile",
-        faults.len()
+        "{} places for faults; {equivalent} more, in the whole project, are judged equivalent, and {} stand in files that \
+         tests do not compile",
+        faults.len(),
+        left_out.not_compiled
     );
+    if left_out.as_root > 0 {
+        println!("not tried as root: {} in files whose faults may harm the machine", left_out.as_root);
+    }
     shuffle(&mut faults, options.seed);
     let listed = match &options.again {
         Some(path) => listed_first(&mut faults, &std::fs::read_to_string(path)?),

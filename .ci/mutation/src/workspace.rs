@@ -47,12 +47,16 @@ struct Mutants {
     left_out: Vec<LeftOut>,
 }
 
-/// A file in which no fault is drawn, since `cargo test` does not compile it: something else tries it.
+/// A file in which no fault is drawn, since `cargo test` does not compile it, and something else tries it; or since its
+/// faults may do harm.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LeftOut {
     /// From the package's folder.
     path: PathBuf,
+    /// Whether it is left out only of what root tries, to whom the system forbids nothing.
+    #[serde(default)]
+    as_root: bool,
     reason: String,
 }
 
@@ -68,24 +72,46 @@ impl Package {
     }
 }
 
-/// Takes out the faults of files that manifests leave out, and says how many; a file without a reason or without a
-/// fault is an error.
-pub fn leave_out(faults: &mut Vec<Fault>, root: &Path, packages: &[Package]) -> Result<usize, Failure> {
-    let before = faults.len();
+/// How many faults manifests leave out.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct LeftOutCounts {
+    /// In files that tests do not compile.
+    pub not_compiled: usize,
+    /// In files whose faults root must not try.
+    pub as_root: usize,
+}
+
+/// Takes out the faults of files that manifests leave out; a file without a reason or without a fault is an error.
+pub fn leave_out(
+    faults: &mut Vec<Fault>,
+    root: &Path,
+    packages: &[Package],
+    is_root: bool,
+) -> Result<LeftOutCounts, Failure> {
+    let mut counts = LeftOutCounts::default();
     for package in packages {
         let mutants = package.metadata.as_ref().and_then(|notes| notes.mutants.as_ref());
-        for LeftOut { path, reason } in mutants.map_or(&[][..], |mutants| &mutants.left_out) {
+        for LeftOut { path, as_root, reason } in mutants.map_or(&[][..], |mutants| &mutants.left_out) {
             let file = package.folder().join(path);
-            let all = faults.len();
-            faults.retain(|fault| root.join(&fault.file) != file);
-            if faults.len() == all || reason.trim().is_empty() {
+            let there = faults.iter().filter(|fault| root.join(&fault.file) == file).count();
+            if there == 0 || reason.trim().is_empty() {
                 return Err(
                     format!("left out without a reason or without a fault: {}", file.display()).into()
                 );
             }
+            if *as_root && !is_root {
+                continue;
+            }
+            faults.retain(|fault| root.join(&fault.file) != file);
+            *if *as_root { &mut counts.as_root } else { &mut counts.not_compiled } += there;
         }
     }
-    Ok(before - faults.len())
+    Ok(counts)
+}
+
+/// Whether root runs this. Who it is that runs it is asked of the system; if that does not say, it may be root.
+pub fn is_root() -> bool {
+    Command::new("id").arg("-u").output().map_or(true, |output| output.stdout.trim_ascii() == b"0")
 }
 
 #[derive(Deserialize)]
@@ -143,6 +169,28 @@ pub fn is_hot(file: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_may_do_harm_is_left_out_of_what_root_tries() {
+        let root = std::fs::canonicalize(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).expect("a folder");
+        let packages = packages(&root).expect("a workspace");
+        let harmful = "calibration/src/file/whole.rs";
+        let faults = || {
+            let mut faults = Vec::new();
+            for file in files(&root).expect("files").iter().filter(|file| is_source(file)) {
+                let text = std::fs::read_to_string(root.join(file)).expect("a source");
+                faults.extend(crate::find::faults(file, &text).expect("Rust"));
+            }
+            faults
+        };
+        for is_root in [false, true] {
+            let mut faults = faults();
+            let counts = leave_out(&mut faults, &root, &packages, is_root).expect("true manifests");
+            assert_eq!(counts.as_root > 0, is_root);
+            assert!(counts.not_compiled > 0);
+            assert_eq!(faults.iter().any(|fault| fault.file == harmful), !is_root);
+        }
+    }
 
     #[test]
     fn a_crate_that_the_workspace_leaves_out_belongs_to_none_of_its_packages() {

@@ -185,6 +185,14 @@ fn stacked_gauges_are_no_overlap_and_neighbours_over_the_edge_are() {
         (0..12_i32).map(|i| Gauge { z: 0.0, theta: f64::from(i) * TAU / 12.0, q: PI / 2.0 }).collect();
     let unrolled = of(&layout);
     assert_eq!(unrolled.overlapping().len(), 12, "each with the next, the last with the first");
+    // Wherever the seam is among them, and whichever of two comes first.
+    for turned in 0..12 {
+        let mut other = layout.clone();
+        other.gauges.rotate_left(turned);
+        assert_eq!(of(&other).overlapping().len(), 12, "{turned}");
+        other.gauges.reverse();
+        assert_eq!(of(&other).overlapping().len(), 12, "{turned}");
+    }
     let svg = drawn::svg(&template(&unrolled, CARE).to_svg());
     // What goes over an edge stands at the other, too.
     let strip = &svg.named("strip").points;
@@ -222,6 +230,16 @@ fn the_printer_can_be_checked() {
         let points = svg.lines.iter().flat_map(|line| &line.points);
         let reach = points.fold([0.0_f64; 2], |[x, y], point| [x.max(point[0]), y.max(point[1])]);
         assert!(reach[0] <= sheet.size()[0] && reach[1] <= sheet.size()[1], "{radius}: {reach:?}");
+        for (text, [left, top, right, bottom]) in svg.texts.iter().zip(&svg.rooms) {
+            // Some printers leave 10 mm white.
+            let across = *left >= 10.0 && *right <= sheet.size()[0] - 10.0;
+            let down = *top >= 5.0 && *bottom <= sheet.size()[1] - 10.0;
+            assert!(
+                across && down,
+                "{radius}: {text:?} on {:?} at {left} {top} {right} {bottom}",
+                sheet.size()
+            );
+        }
         assert!(
             svg.texts
                 .iter()

@@ -206,3 +206,35 @@ fn selected(terms: &Terms, mut order: Vec<usize>) -> Terms {
     let widths = if centres.is_empty() { Vec::new() } else { terms.widths.clone() };
     Terms { products, widths, centres }
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::collections::BTreeSet;
+
+    use super::products;
+
+    /// Of up to eight gauges all products of two and of three signals, each once; of more gauges those of three of which
+    /// two are the same.
+    #[test]
+    fn products_of_many_gauges_are_fewer() {
+        for gauges in [1, 2, 6, 8, 9, 12] {
+            let found = products(gauges);
+            let distinct: BTreeSet<Vec<usize>> = found.iter().cloned().collect();
+            assert_eq!(distinct.len(), found.len());
+            let mut expected = BTreeSet::new();
+            for i in 0..gauges {
+                for j in 0..gauges {
+                    for k in 0..gauges {
+                        let mut three = vec![i, j, k];
+                        three.sort_unstable();
+                        if gauges <= 8 || three[0] == three[1] || three[1] == three[2] {
+                            expected.insert(three);
+                        }
+                    }
+                    expected.insert(vec![i.min(j), i.max(j)]);
+                }
+            }
+            assert_eq!(distinct, expected, "{gauges} gauges");
+        }
+    }
+}

@@ -108,6 +108,10 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        // Of random designs more than half are bad ones, which have no slope to speak of: however many cases are asked for,
+        // they are found.
+        #![proptest_config(ProptestConfig { max_global_rejects: u32::MAX, ..ProptestConfig::default() })]
+
         #[test]
         fn slope_agrees_with_differences(t in proptest::collection::vec(0.05..0.95_f64, 18), power in 1.0..20.0_f64) {
             let loads = NominalLoads::equal(10.0, 0.1).unwrap();

@@ -84,7 +84,10 @@ fn escape(value: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AtiCalibration, AtiError, CalibrationFile, FileError, SignalUnit};
+    use super::super::{
+        AtiCalibration, AtiError, CalibrationFile, Curve, FileError, SignalUnit, Temperature,
+    };
+    use crate::creep::Creep;
     use crate::testing::Largest as _;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
@@ -246,6 +249,18 @@ mod tests {
             AtiCalibration::from_calibration(&file).unwrap_err().to_string()
         };
         assert!(refused(&|file| file.quadratic = Some(DMatrix::zeros(6, 21))).contains("quadratic"));
+        let curve = Curve { products: vec![vec![0, 1]], loads: DMatrix::zeros(6, 1), ..Curve::default() };
+        assert!(refused(&|file| file.curve = Some(curve.clone())).contains("curve"));
+        let creep = Creep { times_s: vec![3.0], shares: vec![vec![0.01; 6]] };
+        assert!(refused(&|file| file.creep = Some(creep.clone())).contains("creep"));
+        let drift = Temperature {
+            reference_celsius: 22.5,
+            range_celsius: [10.0, 40.0],
+            zero_drift: vec![1e-3; 6],
+            zero_curvature: vec![0.0; 6],
+            gain_drift: vec![0.0; 6],
+        };
+        assert!(refused(&|file| file.temperature = Some(drift.clone())).contains("22.5"));
         assert!(refused(&|file| file.signal_unit = SignalUnit::Count).contains("signal_unit"));
         assert!(refused(&|file| file.matrix.fill_row(0, 0.0)).contains("inverse"));
         assert!(refused(&|file| file.nominal[2] = -1.0).contains("nominal[2]"));

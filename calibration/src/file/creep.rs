@@ -62,7 +62,7 @@ impl CalibrationFile {
 mod tests {
     use nalgebra::{DMatrix, Vector6};
 
-    use super::super::{CalibrationFile, FileError, SignalUnit};
+    use super::super::{CalibrationFile, FileError, Scalar, SignalUnit};
     use crate::creep::Creep;
 
     fn file() -> CalibrationFile {
@@ -78,6 +78,9 @@ mod tests {
         let text = file().to_toml().unwrap();
         assert!(text.contains("version = 4") && text.contains("[creep]"), "{text}");
         assert_eq!(CalibrationFile::from_toml(&text).unwrap(), file());
+        // Constants alone cannot say it.
+        let error = file().to_rust(Scalar::F64).unwrap_err();
+        assert!(matches!(&error, FileError::OutOfRange { field, .. } if field == "creep"), "{error}");
         let none = CalibrationFile { creep: None, ..file() };
         assert!(!none.to_toml().unwrap().contains("creep"));
         assert!(none.creep_compensation_in::<f64, 6>().unwrap().is_none());

@@ -179,6 +179,28 @@ mod tests {
         ));
     }
 
+    /// Torques that scatter: what is left of them is told as what scatters, less what the fit takes up. Each touch may
+    /// slide along the axis, so that two of its three components count.
+    #[test]
+    fn what_is_left_is_told_as_the_noise_that_there_is() {
+        let random = &mut Pcg64Mcg::seed_from_u64(14);
+        let (axis, count, noise) = (vector(random).normalize(), 300, 2e-5);
+        let (mut touches, _) = touches(random, axis, count);
+        for touch in &mut touches {
+            let torque = touch.wrench.torque() + vector(random) * noise;
+            touch.wrench = Wrench::on_fingertip(touch.wrench.force(), torque);
+        }
+        let forces = WrenchNoise::new(1e-6, noise).unwrap();
+        for stated in [WrenchNoise::exact_forces(), forces] {
+            let fitted = fit_cylinder_along(&touches, &axis, &stated).unwrap();
+            let components = 2.0 * count as f64;
+            let expected = noise * ((components - 3.0) / components).sqrt();
+            // The standard deviation of the ratio is 1/√(2·597), 2.9 %.
+            assert!((fitted.rms / expected - 1.0).abs() < 0.12, "{} {expected}", fitted.rms);
+            assert_eq!(fitted.freedom, components - 3.0);
+        }
+    }
+
     /// Normals that are known to 10 mrad: the tilt is as large as is said, within 5 %.
     #[test]
     fn tilt_is_as_uncertain_as_is_said() {

@@ -169,7 +169,8 @@ pub(super) fn step(
             components += if free.is_some() { 2 } else { 3 };
             white.fixed_rows_mut::<3>(3 * i).copy_from(&fitted);
             let direction = free.copied().unwrap_or_default();
-            squares += (residual - direction.cross(adjusted) * slide.dot(residual)).norm_squared();
+            // Once it is settled, nothing of it is what sliding could take up.
+            squares += residual.norm_squared();
             for (j, column) in points.slopes.iter().enumerate() {
                 // Less what sliding makes up for.
                 let slope = column[i] - direction * slide.dot(&column[i].cross(adjusted));

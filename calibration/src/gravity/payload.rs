@@ -288,7 +288,7 @@ impl PayloadFit {
     pub fn verdict(&self) -> Verdict {
         let weight = self.weight.norm();
         let left = self.force_squares().sqrt();
-        let is_bad = 3.0 * self.rms_if_in_base < left
+        let is_bad = self.frames_seem_mixed()
             || self.condition_number > 30.0
             || self.weight_deviation > 0.1 * weight
             || left > 0.1 * weight;
@@ -304,6 +304,16 @@ impl PayloadFit {
     /// Mean square of what is left of a force \[N²\].
     fn force_squares(&self) -> f64 {
         self.rms.iter().take(3).map(|rms| rms * rms).sum()
+    }
+
+    /// What is left of a component of the force, root mean square \[N\].
+    fn force_rms(&self) -> f64 {
+        (self.force_squares() / 3.0).sqrt()
+    }
+
+    /// Whether the readings fit much better as given in the base frame.
+    fn frames_seem_mixed(&self) -> bool {
+        self.rms_if_in_base * 3.0 < self.force_rms()
     }
 
     fn rate(&mut self, poses: &[Pose], design: &DMatrix<f64>) {
@@ -327,11 +337,11 @@ impl PayloadFit {
             let left = &other - design * swapped.coefficients;
             self.rms_if_in_base = (left.norm_squared() / left.len().max(1) as f64).sqrt();
         }
-        let rms = (self.force_squares() / 3.0).sqrt();
-        if self.rms_if_in_base * 3.0 < rms {
+        if self.frames_seem_mixed() {
             self.warnings.push(format!(
-                "frames seem to be mixed: the readings fit to {:.3} N if they are in the base frame, to {rms:.3} N as it is",
-                self.rms_if_in_base
+                "frames seem to be mixed: the readings fit to {:.3} N if they are in the base frame, to {:.3} N as it is",
+                self.rms_if_in_base,
+                self.force_rms()
             ));
         }
         if self.condition_number > 30.0 {

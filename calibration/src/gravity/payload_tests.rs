@@ -1,4 +1,5 @@
-use super::{PayloadError, PayloadOptions, fit_payload};
+use super::{PayloadError, PayloadFit, PayloadOptions, fit_payload};
+use crate::file::Verdict;
 use crate::fit::FitError;
 use crate::fit::testing::gaussian;
 use crate::gravity::{Pose, fit_orientation};
@@ -237,4 +238,38 @@ fn what_poses_leave_open_is_named_axis_by_axis() {
     let error = fit_payload(&same, &PayloadOptions::default()).unwrap_err();
     let PayloadError::Fit(FitError::Unobserved(unobserved)) = error else { panic!("{error}") };
     assert_eq!(unobserved.names, ["weight", "bias x", "bias y", "bias z"]);
+}
+
+/// Each of what makes a fit worthless does so alone, and says why; at its limit none does.
+#[test]
+fn a_bad_fit_is_bad_for_one_reason() {
+    let random = &mut Pcg64Mcg::seed_from_u64(32);
+    let (g, c) = (Vector3::new(0.0, 0.0, -3.0), Vector3::new(0.01, -0.02, 0.03));
+    let good = fit_payload(&poses(random, 12, g, c, Vector6::zeros()), &PayloadOptions::default()).unwrap();
+    assert_eq!((good.verdict(), good.warnings.len()), (Verdict::Good, 0));
+    let with = |change: fn(&mut PayloadFit)| {
+        let mut fit = good.clone();
+        change(&mut fit);
+        fit.verdict()
+    };
+    let mixed = |rms_if_in_base: f64| {
+        let mut fit = PayloadFit { rms_if_in_base, ..good.clone() };
+        fit.rms[..3].fill(0.03);
+        fit.verdict()
+    };
+    for (bad, verdict) in [
+        // A third of what is left of a component, and less.
+        (mixed(0.0101), Verdict::Good),
+        (mixed(0.0099), Verdict::Bad),
+        (with(|fit| fit.condition_number = 30.0), Verdict::Good),
+        (with(|fit| fit.condition_number = 30.1), Verdict::Bad),
+        (with(|fit| fit.weight_deviation = 0.299), Verdict::Good),
+        (with(|fit| fit.weight_deviation = 0.301), Verdict::Bad),
+        // All that is left of a force, over its three components.
+        (with(|fit| fit.rms[..3].fill(0.172)), Verdict::Good),
+        (with(|fit| fit.rms[..3].fill(0.174)), Verdict::Bad),
+        (with(|fit| fit.warnings.push("the weight".to_owned())), Verdict::Suspect),
+    ] {
+        assert_eq!(bad, verdict);
+    }
 }

@@ -263,6 +263,32 @@ mod tests {
         }
     }
 
+    /// In whatever units a sensor reads, its form is the same: of small numbers and of large ones.
+    #[test]
+    fn units_of_the_readings_do_not_change_the_form() {
+        let random = &mut Pcg64Mcg::seed_from_u64(5);
+        let mut wrenches = DMatrix::identity(6, 6);
+        wrenches.rows_mut(3, 3).neg_mut();
+        let sensors = (0..20).map(|_| sensor(random, 6, 6)).chain([wrenches]);
+        for (number, b) in sensors.enumerate() {
+            let form = form_of(&b);
+            for unit in [1e-6, 1e-3, 1e3, 1e6] {
+                let off = (form_of(&(&b * unit)) - &form).norm();
+                assert!(off < 1e-12, "{off}: sensor {number} in a unit of {unit}");
+            }
+        }
+        // A trace that is nothing but rounding gives no sign.
+        for rounding in [1e-10, -1e-10] {
+            for unit in [1e-3, 1.0, 1e3] {
+                let bare = DMatrix::from_row_slice(2, 2, &[rounding, 1.0, 1.0, 0.0]) * unit;
+                assert!(super::canonical(bare).0[(0, 1)] > 0.0, "{rounding} {unit}");
+                // Nor does a first entry that is.
+                let bare = DMatrix::from_row_slice(2, 2, &[rounding, 1.0, 1.0, -rounding]) * unit;
+                assert!(super::canonical(bare).0[(0, 1)] > 0.0, "{rounding} {unit}");
+            }
+        }
+    }
+
     #[test]
     fn what_is_not_enough_is_said() {
         let mut gathered = PointContactForm::new(6);

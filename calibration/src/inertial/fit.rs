@@ -363,3 +363,30 @@ fn warnings(fit: &InertialFit, options: &InertialOptions) -> Vec<String> {
     }
     warnings
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector6;
+
+    use super::floored;
+
+    /// Readings without any scatter do not weigh endlessly: as if they scattered by 1e-7 of the load, torques at least by
+    /// that of the force at a millimetre.
+    #[test]
+    fn what_does_not_scatter_weighs_by_the_load() {
+        let still = Vector6::zeros();
+        let load = Vector6::new(0.5, -2.0, 1.0, 0.01, 0.0, -0.03);
+        let floor = floored(&still, &load);
+        for (found, expected) in floor.iter().zip([2e-7, 2e-7, 2e-7, 3e-9, 3e-9, 3e-9]) {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{floor}");
+        }
+        let pure = Vector6::new(0.5, -2.0, 1.0, 0.0, 0.0, 0.0);
+        assert!((floored(&still, &pure)[4] / 2e-10 - 1.0).abs() < 1e-12);
+        // What scatters more weighs by its scatter.
+        let noisy = Vector6::new(1e-3, 0.0, 2e-3, 1e-5, 2e-5, 0.0);
+        let expected = Vector6::new(1e-3, 2e-7, 2e-3, 1e-5, 2e-5, 3e-9);
+        assert!((floored(&noisy, &load) - expected).amax() < 1e-18);
+        // Without any load at all they are still numbers to divide by.
+        assert!(floored(&still, &still).iter().all(|x| *x > 0.0));
+    }
+}

@@ -160,6 +160,9 @@ mod tests {
         assert_eq!((with(2, -1000.0), with(4, 100.0)), (None, None));
         assert!(with(2, -1001.0).unwrap().starts_with("the greatest fz is 1001 N, "));
         assert!(with(4, 101.0).unwrap().starts_with("the greatest ty is 101 N·m, "));
+        // Numbers that are long to read are written with a power of ten.
+        assert!(with(0, 999_999.0).unwrap().starts_with("the greatest fx is 999999 N, "));
+        assert!(with(0, 1e6).unwrap().starts_with("the greatest fx is 1e6 N, "));
         assert!(with(0, 1e8).unwrap().starts_with("the greatest fx is 1e8 N, "));
         // The oddest is told of.
         let mut both = table(1.0);

@@ -177,7 +177,7 @@ impl LoadTable {
     }
 
     /// Checks lengths and that every number is finite and no greater than [`GREATEST`](Self::GREATEST). The fits call
-    /// it.
+    /// it. Orientations are for [`carrying`](Self::carrying) alone, which checks their numbers.
     ///
     /// # Errors
     /// [`LoadError`].
@@ -371,5 +371,76 @@ mod tests {
         bad.weights = Some(vec![1.0; 3]);
         assert!(matches!(bad.validate(), Err(LoadError::WrongLength { field: "weights", .. })));
         assert_eq!(table().greatest_loads(), [1.0, 2.0, 1.0]);
+    }
+
+    /// Whatever cannot be carried is told by its sample and its column; what can be is never blamed for it.
+    #[test]
+    fn the_number_that_is_none_is_named() {
+        let whole = || LoadTable {
+            times: Some(vec![-0.5, 0.0, 0.5, 1.0]),
+            temperatures: Some(vec![-10.0, 20.0, 21.0, 22.0]),
+            weights: Some(vec![1.0, 0.0, 2.0, 1.0]),
+            ..table()
+        };
+        assert_eq!(whole().validate(), Ok(()));
+        type Put = fn(&mut LoadTable, usize, f64);
+        let columns: [(&str, Put); 5] = [
+            ("fy", |table, i, value| table.loads[(i, 1)] = value),
+            ("v2", |table, i, value| table.signals[(i, 1)] = value),
+            ("t_s", |table, i, value| table.times.as_mut().unwrap()[i] = value),
+            ("temperature_C", |table, i, value| table.temperatures.as_mut().unwrap()[i] = value),
+            ("weight", |table, i, value| table.weights.as_mut().unwrap()[i] = value),
+        ];
+        let most = LoadTable::GREATEST;
+        for (name, put) in columns {
+            for i in 0..4 {
+                let tried = |value: f64| {
+                    let mut table = whole();
+                    put(&mut table, i, value);
+                    table.validate()
+                };
+                let named = || {
+                    Err(LoadError::NotFinite { sample: format!("sample {}", i + 1), column: name.to_owned() })
+                };
+                assert_eq!((tried(0.0), tried(most)), (Ok(()), Ok(())), "{name}");
+                for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, most * 1.001, most * -1.001] {
+                    assert_eq!(tried(bad), named(), "{name} {bad}");
+                }
+                assert_eq!(tried(-1.0), if name == "weight" { named() } else { Ok(()) });
+            }
+        }
+    }
+
+    #[test]
+    fn lists_of_other_lengths_are_named() {
+        let quaternion = [0.0, 0.0, 0.0, 1.0];
+        let with = |change: fn(&mut LoadTable)| {
+            let mut table = table();
+            change(&mut table);
+            match table.validate() {
+                Err(LoadError::WrongLength { field, found, expected }) => (field, found, expected),
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(with(|table| table.axes.truncate(2)), ("axes", 2, 3));
+        assert_eq!(with(|table| table.signals = DMatrix::zeros(3, 2)), ("signals", 3, 4));
+        assert_eq!(with(|table| table.names = table.names.select(&[0, 1])), ("names", 2, 4));
+        assert_eq!(with(|table| table.cases.push(4)), ("cases", 5, 4));
+        assert_eq!(with(|table| table.groups.truncate(1)), ("groups", 1, 4));
+        assert_eq!(with(|table| table.times = Some(vec![0.0; 5])), ("times", 5, 4));
+        assert_eq!(with(|table| table.temperatures = Some(vec![])), ("temperatures", 0, 4));
+        assert_eq!(
+            with(|table| table.orientations = Some(vec![[0.0, 0.0, 0.0, 1.0]; 3])),
+            ("orientations", 3, 4)
+        );
+        let turned = LoadTable { orientations: Some(vec![quaternion; 4]), ..table() };
+        assert_eq!(turned.validate(), Ok(()));
+        for (what, table) in [
+            ("samples", table().select(|_| false)),
+            ("load columns", LoadTable { axes: vec![], loads: DMatrix::zeros(4, 0), ..table() }),
+            ("signal columns", LoadTable { signals: DMatrix::zeros(4, 0), ..table() }),
+        ] {
+            assert_eq!(table.validate(), Err(LoadError::Empty { what }));
+        }
     }
 }

@@ -135,7 +135,7 @@ mod tests {
         {
             assert_eq!(Counting::of(low, high), Counting::PLAIN, "{low} to {high}");
         }
-        for (low, high) in [(f64::NAN, 1.0), (0.0, f64::INFINITY), (2.0, 1.0)] {
+        for (low, high) in [(f64::NAN, 1.0), (0.0, f64::INFINITY), (2.0, 1.0), (5e9, 5e9), (1e-7, 1e-7)] {
             assert_eq!(Counting::of(low, high), Counting::PLAIN, "{low} to {high}");
         }
         assert_eq!(Counting::PLAIN.label(-0.0, 0.5), "0.0");

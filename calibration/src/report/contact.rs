@@ -159,4 +159,27 @@ mod tests {
         // Twelve loads make the matrix worth so much.
         assert!(by_matrix > 0.05 * stated && by_matrix < 0.5 * stated, "{by_matrix} {stated}");
     }
+    /// Without all six axes, or without touches, nothing is said of contact points.
+    #[test]
+    fn what_is_not_known_is_not_said() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(32);
+        let signals = sensor(&mut random, 7, 7);
+        let covariance = |axes: usize| {
+            Covariance::product(&signals * signals.transpose(), nalgebra::DMatrix::identity(axes, axes))
+        };
+        let touches = DesignTouch::on_sphere(0.01, 1.2, 0.3, 5.0).unwrap();
+        let set = TouchSet { surface: "a sphere".to_owned(), touches };
+        let none = TouchSet { touches: Vec::new(), ..set.clone() };
+        let matrix = sensor(&mut random, 7, 6);
+        let of = |axes: &[Axis], set: &TouchSet| {
+            let matrix = matrix.columns(0, axes.len()).into_owned();
+            contact_report(axes, &matrix, &vec![1.0; axes.len()], &covariance(axes.len()), set)
+        };
+        assert!(of(&Axis::ALL, &set).is_some());
+        assert_eq!(of(&Axis::ALL, &none), None);
+        assert_eq!(of(&Axis::FORCES, &set), None);
+        let mut other = Axis::ALL;
+        other.swap(0, 5);
+        assert_eq!(of(&other, &set), None);
+    }
 }

@@ -89,6 +89,13 @@ fn times_and_shares_of_a_solid_are_found() {
     assert!((time - SLOW.0 / 1.018).abs() < 1.0, "{time}");
     let [before, after] = found.left_out_percent;
     assert!(before > 10.0 * after, "{before} {after}");
+    // Weights that are all alike weigh nothing.
+    let weights = Some(vec![4.0; session.table.samples()]);
+    let weighed = fit(&LoadTable { weights, ..session.table }, false).unwrap();
+    for (one, other) in weighed.left_out_percent.iter().zip(found.left_out_percent) {
+        assert!((one / other - 1.0).abs() < 1e-6, "{one} {other}");
+    }
+    assert!((weighed.creep.times_s[0] / time - 1.0).abs() < 1e-4, "{:?}", weighed.creep);
 }
 
 #[test]

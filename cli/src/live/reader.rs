@@ -194,10 +194,13 @@ mod tests {
         shared: Arc<Shared>,
         ask_at: usize,
         ask: Command,
+        /// How the bridges are told that the source is, before each sample.
+        heard: Arc<Mutex<Vec<&'static str>>>,
     }
 
     impl Feed for Told {
         fn next(&mut self) -> Result<Next, SensorError> {
+            self.heard.lock().unwrap().push(self.shared.hub.status().health.word());
             if self.given == self.ask_at {
                 self.shared.hub.ask(self.ask);
             }
@@ -235,14 +238,29 @@ mod tests {
         (ask_at, ask): (usize, Command),
         feel: Option<SceneFeel>,
     ) -> (State, Vec<Sample>, fingertip_bridges::Status) {
+        heard(samples, rest, (ask_at, ask), feel, &Arc::default())
+    }
+
+    fn heard(
+        samples: Vec<Next>,
+        rest: Option<f64>,
+        (ask_at, ask): (usize, Command),
+        feel: Option<SceneFeel>,
+        heard: &Arc<Mutex<Vec<&'static str>>>,
+    ) -> (State, Vec<Sample>, fingertip_bridges::Status) {
         let shared = Arc::new(Shared {
             state: Mutex::new(State::new("test".to_owned())),
             stop: Stop::default(),
             hub: Hub::new(About::default()),
         });
-        let mut feed =
-            Some(Box::new(Told { samples, given: 0, shared: Arc::clone(&shared), ask_at, ask })
-                as Box<dyn Feed>);
+        let mut feed = Some(Box::new(Told {
+            samples,
+            given: 0,
+            shared: Arc::clone(&shared),
+            ask_at,
+            ask,
+            heard: Arc::clone(heard),
+        }) as Box<dyn Feed>);
         let options = StreamOptions { silence: Duration::from_secs(3600), reconnect: false };
         let stream = Stream::new(Box::new(move || feed.take().ok_or(SensorError::Over)), options).unwrap();
         let mut reader = shared.hub.subscribe();
@@ -277,6 +295,80 @@ mod tests {
             (status.health, status.faults, status.lost),
             (fingertip_bridges::Health::Ended, 1, Some(2))
         );
+    }
+
+    /// Over the bridges, too, one sees when samples come and when a zero is taken.
+    #[test]
+    fn bridges_are_told_how_the_source_is() {
+        let samples = || (0..6).map(|i| sample(f64::from(i), 1.0)).collect::<Vec<_>>();
+        let told = |rest: Option<f64>, tare_at: usize| {
+            let words = Arc::default();
+            let (_, _, status) = heard(samples(), rest, (tare_at, Command::Tare), None, &words);
+            let words = words.lock().unwrap().clone();
+            (words, status.health.word())
+        };
+        let (words, end) = told(None, usize::MAX);
+        assert_eq!((words[..2].to_vec(), end), (vec!["waiting", "running"], "ended"));
+        assert!(words[1..].iter().all(|word| *word == "running"));
+        let (words, _) = told(Some(2.0), usize::MAX);
+        assert_eq!(words[..4], ["waiting", "resting", "resting", "running"]);
+        // While it runs: asked for with the third sample, it is taken from the fourth on, for a second.
+        let (words, _) = told(None, 2);
+        assert_eq!(words[..6], ["waiting", "running", "running", "running", "resting", "running"]);
+    }
+
+    /// A sensor that was unplugged is said to be lost, to the view and over the bridges, until its samples come again.
+    #[test]
+    fn a_lost_sensor_is_told_of_until_it_is_back() {
+        let shared = Arc::new(Shared {
+            state: Mutex::new(State::new("test".to_owned())),
+            stop: Stop::default(),
+            hub: Hub::new(About::default()),
+        });
+        let how = |shared: &Shared| {
+            let status = shared.hub.status();
+            let state = shared.state();
+            (state.health.clone(), status.health, state.reconnections, status.reconnections)
+        };
+        /// Samples, then an end; before each it looks how the source is.
+        struct Looking<L>(u32, L);
+        impl<L: FnMut(u32) + Send> Feed for Looking<L> {
+            fn next(&mut self) -> Result<Next, SensorError> {
+                self.1(self.0);
+                self.0 += 1;
+                Ok(if self.0 < 4 { sample(f64::from(self.0), 1.0) } else { Next::End })
+            }
+            fn losses(&self) -> Losses {
+                Losses::default()
+            }
+        }
+        let seen = Arc::new(Mutex::new(Vec::new()));
+        let (of_feed, opened) = (Arc::clone(&shared), Arc::clone(&seen));
+        let open = move || {
+            let again = of_feed.hub.status().health.word() != "waiting";
+            if again {
+                opened.lock().unwrap().push(how(&of_feed));
+            }
+            let (shared, seen) = (Arc::clone(&of_feed), Arc::clone(&opened));
+            let look = move |given: u32| {
+                if again && given < 2 {
+                    seen.lock().unwrap().push(how(&shared));
+                    if given == 1 {
+                        shared.stop.ask();
+                    }
+                }
+            };
+            Ok(Box::new(Looking(0, look)) as Box<dyn Feed>)
+        };
+        let options = StreamOptions { silence: Duration::from_secs(3600), reconnect: true };
+        let stream = Stream::new(Box::new(open), options).unwrap();
+        read(&shared, stream, Rest::new(None), None).unwrap();
+        let seen = seen.lock().unwrap();
+        let lost = "the line was closed".to_owned();
+        let told = fingertip_bridges::Health::Lost(lost.clone());
+        assert_eq!(seen[0], (Health::Lost(lost.clone()), told.clone(), 0, 0));
+        assert_eq!(seen[1], (Health::Lost(lost), told, 1, 1));
+        assert_eq!(seen[2], (Health::Running, fingertip_bridges::Health::Running, 1, 1));
     }
 
     #[test]

@@ -27,6 +27,29 @@ fn two<T: Real>(soft: bool, friction: f64, half: T) -> Grasp<T, 2, TestHand> {
     Grasp::new([at(-T::one()), at(T::one())])
 }
 
+/// Without a load nothing has to press, whatever was held before, and it is said at once.
+#[test]
+fn nothing_presses_without_a_load() {
+    let grasp = two::<f64>(true, 0.5, 0.02);
+    let none = [FingerLimits::<f64, 1>::none(); 2];
+    let mut least = LeastGrip::new();
+    for load in [-1.0, 0.0, 3.0, 0.0, 0.0] {
+        let load = Wrench::on_fingertip(Vector3::z() * load, Vector3::zeros());
+        let found = least.solve(&grasp, &none, &load);
+        let grip = found.grip().unwrap();
+        if load == Wrench::zero() {
+            assert_eq!((grip.cost, grip.least_cost, grip.steps), (0.0, 0.0, 0));
+            assert_eq!((grip.forces, grip.imbalance), ([ContactForce::zero(); 2], Wrench::zero()));
+        } else {
+            assert!(grip.cost > 0.0 && grip.steps > 0);
+        }
+    }
+    // A finger that must touch does.
+    let touching = [FingerLimits::<f64, 1>::none().with_least_normal(0.5).unwrap(); 2];
+    let grip = least.solve(&grasp, &touching, &Wrench::zero());
+    assert!((grip.grip().unwrap().cost - 1.0).abs() < 1e-6, "{grip:?}");
+}
+
 /// Forces over the whole range of the type, sizes too: the grip is in proportion.
 fn scales<T: Real>(forces: &[f64], sizes: &[f64], tolerance: f64) {
     let none = [FingerLimits::<T, 1>::none(); 2];

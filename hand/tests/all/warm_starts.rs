@@ -1,6 +1,6 @@
 //! The least grip again from the last solution: the same answer in fewer steps.
 
-use fingertip_hand::{Grasp, GraspContact, GripOutcome, LeastGrip};
+use fingertip_hand::{Grasp, GraspContact, GripOutcome, LeastGrip, Precision};
 use fingertip_wrench::Wrench;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -73,4 +73,30 @@ fn what_was_remembered_never_matters() {
             },
         }
     }
+}
+
+/// What ends without a grip, or is forgotten, leaves nothing to start from: the next grip takes as many steps as at first.
+#[test]
+fn after_a_load_that_was_not_held_it_starts_afresh() {
+    let mut rng = Pcg64Mcg::seed_from_u64(34);
+    let (mut undecided, mut cannot, mut forgotten) = (0, 0, 0);
+    for _ in 0..400 {
+        let Problem { grasp, limits, load } = problem::<4>(&mut rng);
+        // Steps for most loads, but not for all.
+        let mut least =
+            LeastGrip::with_precision(Precision { steps: rng.random_range(4..8), ..Precision::usual() });
+        let GripOutcome::Held(first) = least.solve(&grasp, &limits, &load) else { continue };
+        let turned = Wrench::on_fingertip(load.force().yzx() * 1.3, load.torque().zxy());
+        match least.solve(&grasp, &limits, &turned) {
+            GripOutcome::Undecided => undecided += 1,
+            GripOutcome::CannotHold(_) => cannot += 1,
+            _ => {
+                least.forget();
+                forgotten += 1;
+            }
+        }
+        let GripOutcome::Held(again) = least.solve(&grasp, &limits, &load) else { panic!("{first:?}") };
+        assert_eq!(again, first);
+    }
+    assert!(undecided > 1 && cannot > 1 && forgotten > 1, "{undecided} {cannot} {forgotten}");
 }

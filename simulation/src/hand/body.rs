@@ -181,6 +181,7 @@ mod tests {
         let brick = Inertial::cuboid(&Vector3::new(0.02, 0.03, 0.05), 0.2)
             .with_point_mass(0.03, Vector3::new(0.01, 0.02, -0.03));
         let mut body = RigidBody::at_rest(brick, Vector3::new(0.1, 0.2, 0.3));
+        assert!((body.origin() - Vector3::new(0.1, 0.2, 0.3)).norm() < 1e-15);
         body.set_motion(&Vector3::new(0.3, -0.1, 0.2), &Vector3::new(0.1, 9.0, 0.2));
         body
     }
@@ -258,6 +259,13 @@ mod tests {
         let pair = Inertial { mass: 1.0, centre: Vector3::x(), inertia: Matrix3::identity() }
             .with_point_mass(1.0, -Vector3::x());
         assert!((pair.inertia - Matrix3::from_diagonal(&Vector3::new(1.0, 3.0, 3.0))).norm() < 1e-15);
+        // Of two masses each about the centre of both: 2 kg at 1.2 m and 3 kg at 0.8 m.
+        let lighter = Inertial { mass: 2.0, centre: Vector3::x(), inertia: Matrix3::identity() };
+        let whole = lighter.with_point_mass(3.0, -Vector3::x());
+        let across = 1.0 + 2.0 * 1.2 * 1.2 + 3.0 * 0.8 * 0.8;
+        assert!((whole.inertia - Matrix3::from_diagonal(&Vector3::new(1.0, across, across))).norm() < 1e-14);
+        assert!((whole.centre + Vector3::x() * 0.2).norm() < 1e-15 && whole.mass == 5.0);
+        assert_eq!(lighter.with_point_mass(0.0, Vector3::z()), lighter);
         assert!(pair.centre.norm() < 1e-15 && pair.is_good());
         assert!(!Inertial { mass: -1.0, ..pair }.is_good());
     }

@@ -188,3 +188,69 @@ impl Finger {
         self.skin.energy()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::object::HeldObject;
+    use super::*;
+    use nalgebra::UnitQuaternion;
+
+    #[test]
+    fn fingers_stand_where_they_are_put_and_close_as_is_said() {
+        let (centre, closing) = (Vector3::new(0.01, -0.02, 0.03), Vector3::new(0.0, 3.0, 4.0));
+        for closing in [closing, -closing, Vector3::z() * 2.0, Vector3::x()] {
+            let place = FingerPlace::new(centre, closing).unwrap();
+            assert_eq!(place.tip().origin(), centre);
+            assert!((place.closing() - closing.normalize()).norm() < 1e-15);
+            let rotation = place.tip().rotation();
+            assert!((rotation * rotation.transpose() - Matrix3::identity()).norm() < 1e-15);
+            assert!((rotation.determinant() - 1.0).abs() < 1e-15);
+        }
+        for bad in [f64::NAN, f64::INFINITY] {
+            for axis in 0..3 {
+                let mut off = centre;
+                off[axis] = bad;
+                assert!(FingerPlace::new(off, closing).is_err() && FingerPlace::new(centre, off).is_err());
+            }
+        }
+        assert!(FingerPlace::new(centre, Vector3::zeros()).is_err());
+    }
+
+    /// A hand and an object that move and turn as one do not move against each other: all that a fingertip feels is how deep
+    /// it is pressed in. Closing faster it feels more.
+    #[test]
+    fn what_moves_as_one_does_not_slide() {
+        let object = HeldObject::cylinder(0.03, 0.05, 0.2).unwrap();
+        let (velocity, turning) = (Vector3::new(0.1, -0.2, 0.3), Vector3::new(1.0, 2.0, -3.0));
+        for speed in [0.0, 0.02] {
+            let mut finger = {
+                let [open, _, _] = FingerPlace::ring::<3>(0.1);
+                Finger::new(open, SkinSettings::default(), Options::default()).unwrap()
+            };
+            finger.closed = 0.1 - 0.03 - finger.radius + 0.5e-3;
+            finger.drive(speed);
+            finger.advance(1e-9, 1e-7);
+            // The origin of the hand lies off that of the object, and the hand is turned about the object's axis.
+            let hand = HandMotion {
+                origin: Vector3::new(0.0, 0.0, 0.01),
+                attitude: UnitQuaternion::from_scaled_axis(Vector3::z() * 0.7),
+                velocity,
+                acceleration: Vector3::zeros(),
+                turning,
+            };
+            let mut body = RigidBody::at_rest(object.made_of, Vector3::zeros());
+            body.set_motion(&(velocity + turning.cross(&-hand.origin)), &turning);
+            let on_object = finger.touch(&object.shape, &body, &hand, 1e-6).unwrap();
+            let expected = 5000.0 * 0.5e-3 + 10.0 * speed;
+            let inward = hand.attitude * -Vector3::x();
+            assert!((on_object.force - inward * expected).norm() < 1e-4, "{on_object:?} {expected}");
+            assert!(on_object.torque.norm() < 1e-9, "{on_object:?}");
+            let (contact, _) = finger.contact.unwrap();
+            // The fingertip closes along its own x, and is pushed back.
+            assert!((contact.normal - Vector3::x()).norm() < 1e-12);
+            assert!((contact.force + Vector3::x() * expected).norm() < 1e-4);
+            assert!((contact.point - Vector3::x() * finger.radius).norm() < 1e-12);
+            assert!(finger.felt.torque().norm() < 1e-9);
+        }
+    }
+}

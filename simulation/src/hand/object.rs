@@ -81,3 +81,37 @@ impl<Shape> HeldObject<Shape> {
         checked(Self { shape, made_of, feet })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::HeldObject;
+
+    /// Objects stand on all sides: each foot is on the bottom, as far out as it may be, and they lie about the middle.
+    #[test]
+    fn feet_are_all_around_the_bottom() {
+        let cylinder = HeldObject::cylinder(0.03, 0.05, 0.2).unwrap();
+        let cuboid = HeldObject::cuboid(Vector3::new(0.02, 0.03, 0.05), 0.004, 0.2).unwrap();
+        assert_eq!((cylinder.feet.len(), cuboid.feet.len()), (8, 4));
+        assert!(cylinder.feet.iter().all(|foot| (foot.xy().norm() - 0.03).abs() < 1e-15));
+        let is_corner =
+            |foot: &Vector3<f64>| (foot.xy().abs() - Vector3::new(0.016, 0.026, 0.0).xy()).norm() < 1e-15;
+        assert!(cuboid.feet.iter().all(is_corner));
+        for (feet, spread) in [
+            (&cylinder.feet, [4.0 * 0.03 * 0.03; 2]),
+            (&cuboid.feet, [4.0 * 0.016 * 0.016, 4.0 * 0.026 * 0.026]),
+        ] {
+            assert!(feet.iter().all(|foot| foot.z == -0.05));
+            let middle: Vector3<f64> = feet.iter().sum();
+            assert!(middle.xy().norm() < 1e-15);
+            let squares: Matrix3<f64> = feet.iter().map(|foot| foot * foot.transpose()).sum();
+            assert!(
+                (squares[(0, 0)] - spread[0]).abs() < 1e-15 && (squares[(1, 1)] - spread[1]).abs() < 1e-15
+            );
+            assert!(squares[(0, 1)].abs() < 1e-15);
+            let apart = feet.iter().enumerate().all(|(i, a)| feet[..i].iter().all(|b| (a - b).norm() > 0.01));
+            assert!(apart);
+        }
+    }
+}

@@ -334,6 +334,11 @@ mod tests {
         let end = timeline.at(timeline.end());
         assert!((end.motion.origin.z - 0.05).abs() < 1e-15 && (end.object.mass - 0.3).abs() < 1e-15);
         assert!(end.taken == 1.0 && end.open && end.push.is_none());
+        // What another hand has taken it keeps: taken over again it is as before.
+        let script = HandScript::default().open(0.1).hand_over(0.2).hold(0.1).hand_over(0.2).open(0.1);
+        let twice = HandTimeline::new(&script, Inertial::cylinder(0.03, 0.05, 0.2)).unwrap();
+        assert!((0..100).all(|i| twice.at(0.3 + 0.004 * f64::from(i)).taken == 1.0));
+        assert!((twice.at(0.2).taken - 0.5).abs() < 1e-12 && twice.at(0.05).taken == 0.0);
         let pushed = timeline.at(1.4 + 0.2).push.unwrap().0;
         assert_eq!(pushed, Vector3::x() * 2.0);
     }

@@ -85,7 +85,58 @@ impl OtherHand {
         let turned = (body.attitude() * attitude.inverse()).scaled_axis();
         let velocity = body.velocity_at(&body.centre());
         let force = -weight - moved * SPRINGS.0 - velocity * DAMPERS.0;
-        let torque = -turned * SPRINGS.1 - body.angular_velocity() * DAMPERS.1;
+        let pulled_back = turned * SPRINGS.1;
+        let torque = -pulled_back - body.angular_velocity() * DAMPERS.1;
         (force * share, torque * share)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+    use super::super::body::{Inertial, RigidBody};
+    use super::OtherHand;
+
+    /// A body that turns about any axis alike, moved and turned by so much and now in motion.
+    fn body(
+        moved: Vector3<f64>,
+        turned: Vector3<f64>,
+        velocity: Vector3<f64>,
+        turning: Vector3<f64>,
+    ) -> RigidBody {
+        let ball = Inertial { mass: 0.2, centre: Vector3::zeros(), inertia: Matrix3::identity() * 1e-4 };
+        let mut body = RigidBody::at_rest(ball, Vector3::new(0.1, 0.2, 0.3));
+        body.set_motion(&moved, &turned);
+        body.step(&Vector3::zeros(), &Vector3::zeros(), 1.0);
+        assert!((body.attitude() * UnitQuaternion::from_scaled_axis(turned).inverse()).angle() < 1e-9);
+        body.set_motion(&velocity, &turning);
+        body
+    }
+
+    #[test]
+    fn another_hand_keeps_the_object_where_it_took_hold() {
+        let none = Vector3::zeros();
+        let weight = Vector3::new(0.0, 0.0, -1.962);
+        let mut other = OtherHand::default();
+        // It does nothing, and remembers nothing, before it is asked to.
+        assert_eq!(other.act(&body(none, none, none, none), &weight, 0.0), (none, none));
+        let (there, turned) = (Vector3::new(0.01, -0.02, 0.03), Vector3::new(0.1, 0.2, -0.3));
+        let (force, torque) = other.act(&body(there, turned, none, none), &weight, 0.25);
+        assert!((force + weight * 0.25).norm() < 1e-9 && torque.norm() < 1e-9, "{force} {torque}");
+        // Springs of 1000 N/m and 1 N·m/rad, as stiff as the share that it bears.
+        let on = Vector3::new(0.001, 0.002, -0.001);
+        let (force, torque) = other.act(&body(there + on, turned * 1.5, none, none), &weight, 0.5);
+        assert!((force - (-weight - on * 1000.0) * 0.5).norm() < 1e-9, "{force}");
+        assert!((torque + turned * 0.5 * 0.5).norm() < 1e-9, "{torque}");
+        // Dampers of 10 N·s/m and 0.01 N·m·s/rad.
+        let (velocity, turning) = (Vector3::new(0.1, 0.0, -0.2), Vector3::new(1.0, 2.0, 3.0));
+        let (force, torque) = other.act(&body(there, turned, velocity, turning), &weight, 1.0);
+        assert!((force + weight + velocity * 10.0).norm() < 1e-9, "{force}");
+        assert!((torque + turning * 0.01).norm() < 1e-9, "{torque}");
+        // Once it has let go it takes hold where the object is then.
+        assert_eq!(other.act(&body(there, none, none, none), &weight, 0.0), (none, none));
+        let (force, torque) = other.act(&body(on, none, none, none), &weight, 1.0);
+        assert!((force + weight).norm() < 1e-9 && torque.norm() < 1e-9, "{force} {torque}");
     }
 }

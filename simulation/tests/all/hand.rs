@@ -68,6 +68,31 @@ fn fingertips_at_rest_bear_the_weight_and_nothing_else() {
     }
 }
 
+/// Another hand takes the object where it is, and keeps it there; the fingers open and touch it no more.
+#[test]
+fn fingers_let_go_of_what_another_hand_has_taken() {
+    let script = lift().hold(0.2).hand_over(0.3).hold(0.1).open(0.6);
+    let mut hand = jar::<3>(0.25, &script, seeded(5));
+    let (mut taken, mut gripped, mut last) = (None, 0.0_f64, None);
+    GrippingHand::play(&mut hand, &GrippingSettings::default(), |sample, felt, _| {
+        match sample.phase {
+            3 => taken = Some(sample.truth.origin),
+            5 => gripped = sample.closed[0],
+            _ => {}
+        }
+        last = Some((*sample, *felt));
+    })
+    .unwrap();
+    let (sample, felt): (HandSample<3>, Felt<3>) = last.unwrap();
+    let moved = (sample.truth.origin - taken.unwrap()).norm();
+    assert!(moved < 1e-3, "{moved} m");
+    assert!(sample.truth.contacts.iter().all(Option::is_none));
+    assert!(felt.fingers.iter().all(|finger| finger.sample().is_none()));
+    // At 3 cm/s all the way, or until they are as open as they can be.
+    let opened = gripped - sample.closed[0];
+    assert!((opened - gripped.min(0.03 * 0.6)).abs() < 1e-3, "{opened} of {gripped}");
+}
+
 #[test]
 fn momenta_change_by_what_acts() {
     // One step a sample: what the fingertips feel, the table, gravity and a push are the whole change of momentum and

@@ -4,6 +4,7 @@
 
 use core::f64::consts::TAU;
 
+use fingertip_simulation::hand::standard_hand;
 use fingertip_simulation::{
     Electronics, Imperfections, Options, Script, SessionScore, SimulatedFingertip, SimulatedSample,
     SurfacePoint, ThermalDrift, standard_session,
@@ -114,6 +115,12 @@ fn what_is_read_and_what_was_so_stay_as_they_are() {
         );
         unchanged.note(&format!("{name}: samples"), fingertip.map(|sample| of_sample(&sample)));
     }
+    // Figures of the sessions that are shown and quoted are compared from one version to the next.
+    let session = SimulatedFingertip::new(&standard_session(), options().swap_remove(0).1).unwrap();
+    let phase = |segment: &dyn core::fmt::Debug, start: f64| format!("{segment:?} {start:.6e}");
+    unchanged.note("standard session", session.phases().iter().map(|of| phase(&of.segment, of.start)));
+    let hand = standard_hand(1).unwrap();
+    unchanged.note("standard hand", hand.phases().map(|(segment, start)| phase(&segment, start)));
     // Gentle and great overloads: ends of the range.
     let (_, flawless) = options().swap_remove(0);
     let mut hard = Script::default();
