@@ -1,6 +1,9 @@
 //! Point contacts of many wrenches at once, as structures of arrays that the compiler vectorises:
 //! for simulation and learning.
 //!
+//! The loops are compiled with the program that calls them, which wants `codegen-units = 1` in its profile: in the sixteen
+//! parts that Cargo takes for a release, those with a square root do not become vectors.
+//!
 //! ```
 //! use fingertip_surfaces::Sphere;
 //! use fingertip_contact::batch::{BatchSurface, Contacts, Wrenches};
