@@ -3,7 +3,7 @@
 use crate::uncertainty::geometry::stretched;
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{larger, largest, length, smaller, tangents, unit_or, wide};
-use fingertip_surfaces::{ForceLine, Gauge, LocalSurface, Powers, SmoothSurface, Superquadric, quickly_fine};
+use fingertip_surfaces::{ForceLine, Gauge, LocalSurface, Powers, SmoothSurface, Superquadric};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -129,8 +129,7 @@ fn arrive<T: Real>(shape: &Superquadric<T>, f: &Vector3<T>, m: &Vector3<T>) -> O
     let on_sphere = on_ellipsoid(&axes, f, m);
     let mut c = on_sphere.component_mul(&axes);
     let mut is_first = true;
-    let exactly_fine = T::EPSILON.root();
-    let (mut powers, mut fine) = (Powers::Quick, quickly_fine());
+    let (mut powers, mut fine) = (Powers::Quick, Powers::Quick.fine());
     for _ in 0..QUICK_STEPS {
         let Gauge { value, gradient: g, bends: [(k1, q), (k2, s)] } = shape.gauge_near(&c, powers);
         c *= T::one() / value;
@@ -161,7 +160,7 @@ fn arrive<T: Real>(shape: &Superquadric<T>, f: &Vector3<T>, m: &Vector3<T>) -> O
         let finest = smaller(reach, T::one() / steepest) * fine;
         let settled = size_squared <= finest * finest;
         if settled & (powers == Powers::Quick) {
-            (powers, fine) = (Powers::Exact, exactly_fine);
+            (powers, fine) = (Powers::Exact, Powers::Exact.fine());
         } else if settled & within {
             let n = g * inverse;
             let bend = value * inverse;

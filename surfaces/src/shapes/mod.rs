@@ -52,6 +52,6 @@ pub use sphere::Sphere;
 pub use spherical_cap::SphericalCap;
 pub use superquadric::Superquadric;
 #[doc(hidden)]
-pub use superquadric_gauge::{Gauge, Powers, quickly_fine};
+pub use superquadric_gauge::{Gauge, Powers};
 pub use term::Term;
 pub use torus::Torus;

@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
 use super::superquadric::Superquadric;
-use super::superquadric_gauge::{Gauge, Powers, quickly_fine};
+use super::superquadric_gauge::{Gauge, Powers};
 use crate::numeric::vectors::larger;
 use crate::{Entry, ForceLine};
 
@@ -94,8 +94,7 @@ impl<T: Real> Scaled<T> {
         // Scaled, the solid lies within a cube of half edge 1, that within a ball.
         let before = -(larger(T::literal(3.03) - self.foot.norm_squared(), T::zero()) / self.squared).root();
         let (mut t, mut exchanged) = (larger(start, before), false);
-        let exactly_fine = T::EPSILON.root();
-        let (mut powers, mut fine) = (Powers::Quick, quickly_fine());
+        let (mut powers, mut fine) = (Powers::Quick, Powers::Quick.fine());
         for _ in 0..most {
             let point = self.foot + direction * t;
             let Gauge { value, gradient, bends: [(k1, q), (k2, s)] } = shape.gauge_scaled(&point, powers);
@@ -118,7 +117,7 @@ impl<T: Real> Scaled<T> {
             let within = (0..3).fold(true, |within, k| within & (away[k].abs() <= point[k].abs() * fine));
             let nothing = away.amax() <= T::EPSILON * two;
             if (within | nothing) & (powers == Powers::Quick) {
-                (powers, fine) = (Powers::Exact, exactly_fine);
+                (powers, fine) = (Powers::Exact, Powers::Exact.fine());
             } else if within | nothing {
                 let turn = q * (k1 * along_q * step) + s * (k2 * along_s * step);
                 let gradient = if within { gradient + turn } else { gradient };

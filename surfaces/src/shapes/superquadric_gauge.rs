@@ -27,13 +27,17 @@ pub enum Powers {
     Quick,
 }
 
-/// How fine a step with quick powers is that is the last of them: its square is as fine as these powers, or as what is
-/// nothing when squared once more.
-#[doc(hidden)]
-#[must_use]
-#[inline]
-pub fn quickly_fine<T: Real>() -> T {
-    T::EPSILON.root().root() * T::literal(0.25)
+impl Powers {
+    /// How fine a step with these powers is that is the last of them: of exact ones its square is nothing; of quick ones it
+    /// is as fine as they are, or as what is nothing when squared once more.
+    #[inline]
+    #[must_use]
+    pub fn fine<T: Real>(self) -> T {
+        match self {
+            Self::Exact => T::EPSILON.root(),
+            Self::Quick => T::EPSILON.root().root() * T::literal(0.25),
+        }
+    }
 }
 
 impl<T: Real> Superquadric<T> {

@@ -101,13 +101,13 @@ fn on_rounded_box<T: Real>(
     wrench: &Wrench<T>,
     last: Option<&Vector3<T>>,
 ) -> Result<SoftContact<T>, Search<T>> {
-    let in_double = |wrench: &Wrench<f64>| rounded_box_in_double(shape, wrench, last.map(wide).as_ref());
-    if is_asked_again::<T>()
-        && let Some(Ok(contact)) = in_double(&widened(wrench))
-    {
+    let again = is_asked_again::<T>()
+        .then(|| rounded_box_in_double(shape, &widened(wrench), last.map(wide).as_ref()))
+        .flatten();
+    if let Some(Ok(contact)) = again {
         return Ok(narrow(&contact));
     }
-    finely(search(shape, wrench, last, T::EPSILON), is_steady_at(wrench, shape.rounding()), wrench, in_double)
+    finely(search(shape, wrench, last, T::EPSILON), is_steady_at(wrench, shape.rounding()), wrench, |_| again)
 }
 
 fn rounded_box_in_double<T: Real>(

@@ -70,7 +70,7 @@ fn told_or_not<T: Real>(found: Option<SoftContact<T>>) -> (SoftContact<T>, bool)
     (found.unwrap_or_else(nowhere), found.is_some())
 }
 
-/// One of two, without a branch.
+/// One of two, without a branch. Component by component: of `zip_map` the compiler makes no vectors here.
 #[inline(always)]
 fn pick<T: Real>(first: bool, a: &SoftContact<T>, b: &SoftContact<T>) -> SoftContact<T> {
     let of = |a: T, b: T| select_unpredictable(first, a, b);
