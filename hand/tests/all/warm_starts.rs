@@ -1,12 +1,13 @@
 //! The least grip again from the last solution: the same answer in fewer steps.
 
-use fingertip_hand::{Grasp, GraspContact, GripOutcome, LeastGrip, Precision};
+use fingertip_hand::{FingerLimits, Grasp, GraspContact, GripOutcome, LeastGrip, Precision};
 use fingertip_wrench::Wrench;
+use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 use crate::support::clarabel_oracle::{self, Oracle};
-use crate::support::{Problem, problem, vector};
+use crate::support::{Problem, TestHand, problem, vector};
 
 /// Starting from the last solution changes nothing but the number of steps.
 #[test]
@@ -99,4 +100,21 @@ fn after_a_load_that_was_not_held_it_starts_afresh() {
         assert_eq!(again, first);
     }
     assert!(undecided > 1 && cannot > 1 && forgotten > 1, "{undecided} {cannot} {forgotten}");
+}
+
+/// Nor does a grip whose cost lies beyond the range of the type, though its forces are those of the one before.
+#[test]
+fn after_a_cost_beyond_the_range_it_starts_afresh() {
+    let at = |side: f64| GraspContact::soft(Vector3::x() * side, Vector3::x() * -side, 0.5, 1e-3).ok();
+    let grasp = Grasp::<f64, 2, TestHand>::new([at(0.02), at(-0.02)]);
+    let usual = FingerLimits::<f64, 1>::none();
+    let costly = usual.with_cost(1e200).unwrap();
+    let load = Wrench::on_fingertip(Vector3::z() * 1e200, Vector3::zeros());
+    let mut least = LeastGrip::new();
+    let first = least.solve(&grasp, &[usual; 2], &load);
+    let mut again = least;
+    let GripOutcome::Held(warm) = again.solve(&grasp, &[usual; 2], &load) else { panic!() };
+    assert!(first.grip().is_some_and(|grip| warm.steps < grip.steps), "{first:?} {warm:?}");
+    assert_eq!(least.solve(&grasp, &[costly; 2], &load), GripOutcome::NotFinite);
+    assert_eq!(least.solve(&grasp, &[usual; 2], &load), first);
 }
