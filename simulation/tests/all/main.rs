@@ -3,6 +3,7 @@
 
 mod hand;
 mod hand_consistency;
+mod hand_session;
 mod health;
 mod prototype;
 mod simulated_flaws;
