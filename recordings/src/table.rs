@@ -1,5 +1,6 @@
 //! The cells of a CSV, row by row.
 
+use core::cmp::Ordering;
 use core::fmt;
 use std::io::{Chain, Cursor, Read};
 
@@ -142,14 +143,14 @@ impl<R: Read> TableReader<R> {
             return Ok(false);
         }
         let (expected, found) = (self.names.len(), self.record.len());
-        if expected == found {
-            return Ok(true);
+        match found.cmp(&expected) {
+            Ordering::Equal => Ok(true),
+            Ordering::Less if self.records.is_at_cut_end() => {
+                self.cut_line = Some(self.line);
+                Ok(false)
+            }
+            _ => Err(RecordingError::Ragged { file: self.file.clone(), line: self.line, expected, found }),
         }
-        if found < expected && self.records.is_at_cut_end() {
-            self.cut_line = Some(self.line);
-            return Ok(false);
-        }
-        Err(RecordingError::Ragged { file: self.file.clone(), line: self.line, expected, found })
     }
 
     /// The text of a cell of the row at hand, without blanks around it; empty if it is no UTF-8.

@@ -126,7 +126,7 @@ fn fold(frequency: f64, rate: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::spectrum::Spectra;
-    use super::{find, fold, name};
+    use super::{AROUND, around, find, fold, name};
     use core::f64::consts::TAU;
     use rand::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
@@ -168,6 +168,17 @@ mod tests {
             let found = lines(samples, 1000.0, 100 + seed, |t| 0.5 * (TAU * 0.1 * t).sin());
             assert!(found.is_empty(), "{seed}: {found:?}");
         }
+    }
+
+    /// Noise of one on the most bins around a line, by two: the skirts of the line have no say in which of both it is.
+    #[test]
+    fn a_line_is_no_part_of_the_noise_around_it() {
+        let mut powers = vec![3.0; 512];
+        powers[101 - AROUND..=100].fill(1.0);
+        powers[98..=102].fill(1000.0);
+        assert_eq!(around(&powers, 100), 3.0);
+        powers[103..105].fill(1.0);
+        assert_eq!(around(&powers, 100), 1.0);
     }
 
     #[test]

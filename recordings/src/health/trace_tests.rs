@@ -269,6 +269,30 @@ fn rests_are_where_nothing_moves() {
     assert!(rest::samples(&[]).is_none());
 }
 
+/// Up by 0.6 of a deviation in each block: no more than noise from one mean to the next, but too much from four to the next
+/// four. The rest ends with the block by which there are eight.
+#[test]
+fn a_slow_motion_ends_a_rest_as_soon_as_eight_blocks_tell_it() {
+    let moving = |i: u32| 0.6 * f64::from(i / 16) + if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let readings: Vec<[f64; 2]> = (0..28 * 16).map(|i| [moving(i), 3.0]).collect();
+    let quiet = [(1.0, true), (0.0, false)].map(|(variance, votes)| Quiet { variance, step: 0.0, votes });
+    assert_eq!(rest::rests(&trace(&readings, 2048), &quiet), [0..7, 7..14, 14..21, 21..28]);
+}
+
+/// A tare may leave two hundredths of what it took away, beside noise; more is another load.
+#[test]
+fn a_tare_of_a_great_load_may_leave_a_little() {
+    let mut random = Pcg64Mcg::seed_from_u64(15);
+    for (left, kind) in [(15.0, StepKind::Tare), (40.0, StepKind::Several)] {
+        let mut reading = |i: u32| normal(&mut random) + if i < 800 { 1000.0 } else { left };
+        let readings: Vec<[f64; 2]> = (0..1600).map(|i| [reading(i), -reading(i)]).collect();
+        let trace = trace(&readings, 2048);
+        let quiet = [0, 1].map(|channel| Quiet::of(&trace, channel, None));
+        let found = zero_steps::find(&trace, &quiet, &[0, 1]);
+        assert!(matches!(found.as_slice(), [step] if step.kind == kind && step.sample == 800), "{found:?}");
+    }
+}
+
 /// A step is told with its sample, time and size, of the channels that it moved and of the kind that it is.
 #[test]
 fn steps_of_the_zero_are_told_exactly() {
@@ -319,6 +343,22 @@ fn steps_of_the_zero_are_told_exactly() {
         let quiet = [0, 1].map(|_| Quiet { variance: 1.0 / 12.0, step: 1.0, votes: true });
         let found = zero_steps::find(&self::trace(&readings, 2048), &quiet, &[0, 1]);
         assert_eq!(found.len(), count, "{size}: {found:?}");
+    }
+}
+
+/// A jump stands out from all that changes within three blocks to either side, or is no step.
+#[test]
+fn a_step_beside_a_spike_is_none() {
+    for blocks in -4..=4_i32 {
+        let spike = 808 + 16 * blocks;
+        let reading = |i: i32| {
+            let level = if i < 805 { 50.0 } else { 70.0 };
+            level + if i == spike && blocks != 0 { 15.0 } else { 0.0 }
+        };
+        let readings: Vec<[f64; 2]> = (0..1600).map(|i| [reading(i), 0.0]).collect();
+        let quiet = [true, false].map(|votes| Quiet { variance: 1.0, step: 0.0, votes });
+        let found = zero_steps::find(&trace(&readings, 2048), &quiet, &[0, 1]);
+        assert_eq!(found.len(), usize::from(blocks == 0 || blocks.abs() == 4), "{blocks}: {found:?}");
     }
 }
 

@@ -192,6 +192,20 @@ fn a_stretch_that_sticks_begins_where_it_began() {
     assert_eq!(health.channels[0].at_fault, 300);
 }
 
+/// Where a channel that never moves says nothing, it says nothing of its mean either.
+#[test]
+fn readings_that_are_missing_have_no_mean() {
+    let mut readings = noise(14, 1600);
+    readings.iter_mut().for_each(|reading| reading[1] = 2.0);
+    readings[320..384].iter_mut().for_each(|reading| reading[1] = f64::NAN);
+    let health = watched(&readings, 100.0, Depth::Full);
+    assert!(health.rest_share == 1.0 && health.channels[1].not_finite == 64, "{:?}", health.rest);
+    let noise = health.channels[1].noise.as_ref().unwrap();
+    assert_eq!((noise.mean, noise.deviation), (2.0, 0.0));
+    let drift = health.channels[1].drift.as_ref();
+    assert!(drift.is_none_or(|drift| drift.moved == 0.0), "{drift:?}");
+}
+
 /// Each sensor has steps of its own, told in the order of time; what is calculated from others has none, and a channel
 /// beside it is alone: it is not one of several.
 #[test]

@@ -190,6 +190,20 @@ fn a_length_beyond_its_record_is_an_error_before_anything_is_allocated_for_it() 
     }
 }
 
+/// A chunk that ends within a record, whose checksum is right or missing, costs what follows in it; what follows the chunk is
+/// recovered.
+#[test]
+fn behind_a_chunk_that_ends_within_a_record_recovery_goes_on() {
+    let ending = [definitions(), message(1, 0, &wrench()), vec![5, 0, 0]].concat();
+    for cut in [chunk(&ending), chunk_with(&ending, 0, "")] {
+        let whole = file(&[cut, chunk(&message(1, 1, &wrench())), data_end()]);
+        let (recovered, anew) =
+            recover(whole.as_slice(), Cursor::new(Vec::new()), Compression::None).unwrap();
+        assert_eq!((recovered.messages, recovered.damaged_chunks, recovered.cut), (2, 1, false));
+        assert_eq!(entries(anew.get_ref()).unwrap(), [expected(), expected()]);
+    }
+}
+
 /// Messages of channels that nothing describes, channels of schemas that nothing does, and records whose lengths cannot be
 /// are counted one by one; the rest is recovered.
 #[test]

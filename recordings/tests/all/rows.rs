@@ -113,6 +113,20 @@ fn the_last_row_needs_no_line_end() {
     }
 }
 
+/// One inertial unit without a name serves every sensor that has none of its own.
+#[test]
+fn a_sensor_without_an_inertial_unit_has_the_one_without_a_name() {
+    let unit =
+        |name: &str| format!("{name}ax_g,{name}ay_g,{name}az_g,{name}wx_dps,{name}wy_dps,{name}wz_dps");
+    let header = format!("left_v1_V,right_v1_V,{},{}", unit(""), unit("right_"));
+    let file = format!("{header}\n0,0,0,0,1,0,0,0,0,1,0,0,0,0\n");
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let units = ["left", "right"].map(|sensor| reader.watch_inertial_unit(sensor).unwrap());
+    let row = reader.next_row().unwrap().unwrap();
+    let [left, right] = units.map(|unit| row.inertial(&unit).unwrap().acceleration / 9.80665);
+    assert_eq!((left.as_slice(), right.as_slice()), (&[0.0, 0.0, 1.0][..], &[0.0, 1.0, 0.0][..]));
+}
+
 /// Gives a byte at a time, and says in between that it was interrupted.
 struct Interrupted<'a>(&'a [u8], bool);
 
