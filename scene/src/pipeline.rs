@@ -242,7 +242,6 @@ impl<T: Real> Pipeline<T> {
         let limit = self.stages.friction().0.as_ref();
         felt.stick_slip = self.stages.slip().stick_slip();
         felt.slip_probability = force.as_ref().and_then(|force| limit?.slip_probability(force));
-        felt.spread = None;
         if let Some(uncertainty) = &self.uncertainty {
             let (contact, wrench) = (felt.touch.resolution.contact(), &felt.touch.wrench);
             let jacobian = contact

@@ -70,6 +70,8 @@ fn the_border_holds_no_place_that_is_not_filled() {
             assert!(!border.contains(place), "{place}: {border}");
         }
         assert_eq!(border.contains("SlipDetector"), more.contains("slip"), "{border}");
+        let slip = if more.contains("slip") { "slip: felt.slip as u32," } else { "slip: 0," };
+        assert!(border.contains(slip), "{border}");
         assert_eq!(border.contains("state.grip.command"), more.contains("grip"), "{border}");
     }
 }

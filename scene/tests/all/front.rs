@@ -91,6 +91,7 @@ fn a_sensor_is_a_calibration_a_certificate_or_a_matrix() {
     let scene = folder.scene(&format!("{HEAD}[sensor]\ntemperature_C = 21.0\n{matrix}{BALL}")).unwrap();
     let scene = scene.calibrated_by(folder.0.join("tip.toml")).unwrap();
     assert_eq!(scene.celsius(), Some(21.0));
+    assert_eq!(scene.files(), [folder.0.join("tip.toml")]);
     let wrench = scene.pipeline().sense_reading(&GaugeReading::of(&reading), None, 0.0).unwrap().touch.wrench;
     assert!((wrench.components() - load).amax() < 1e-12);
 }
@@ -226,21 +227,22 @@ fn a_payload_is_taken_off_as_it_hangs() {
         }
         assert_eq!(pipeline.carried().unwrap().gravity([0.0; 4]), None);
     }
-    // Inertia: a turn that speeds up about z needs I·α.
-    let text = format!(
-        "{HEAD}[payload]\n{inline}inertia_kg_m2 = {:?}\n{BALL}",
-        [[2e-4, 0.0, 0.0], [0.0, 2e-4, 0.0], [0.0, 0.0, 5e-5]]
-    );
-    let mut pipeline = Scene::from_text(&text).unwrap().pipeline();
-    let angular_acceleration = Vector3::new(0.0, 0.0, 40.0);
-    let motion = Motion { angular_acceleration, ..Motion::resting(Vector3::zeros()) };
-    let inertial = Wrench::on_fingertip(Vector3::zeros(), -angular_acceleration * 5e-5);
-    let felt = pipeline.sense_moving(push + inertial, &motion, 1e-3);
-    assert!((felt.touch.wrench - push).components().amax() < 1e-15);
+    // Inertia, which the scene may say beside a file too: a turn that speeds up about z needs I·α.
+    let inertia = [[2e-4, 0.0, 0.0], [0.0, 2e-4, 0.0], [0.0, 0.0, 5e-5]];
+    for section in [inline, "file = \"body.toml\"\n"] {
+        let text = format!("{HEAD}[payload]\n{section}inertia_kg_m2 = {inertia:?}\n{BALL}");
+        let mut pipeline = folder.scene(&text).unwrap().pipeline();
+        let angular_acceleration = Vector3::new(0.0, 0.0, 40.0);
+        let motion = Motion { angular_acceleration, ..Motion::resting(Vector3::zeros()) };
+        let inertial = Wrench::on_fingertip(Vector3::zeros(), -angular_acceleration * 5e-5);
+        let felt = pipeline.sense_moving(push + inertial, &motion, 1e-3);
+        assert!((felt.touch.wrench - push).components().amax() < 1e-15, "{section}");
+    }
     // In the place of the scene's.
     let other =
         Scene::from_text(&format!("{HEAD}{BALL}")).unwrap().carrying(folder.0.join("body.toml")).unwrap();
     assert!(other.pipeline().carried().is_some());
+    assert_eq!(other.files(), [folder.0.join("body.toml")]);
     for (section, words) in [
         ("", "[payload] needs `file`"),
         ("file = \"none.toml\"\n", "none.toml"),

@@ -146,3 +146,24 @@ fn what_an_inertial_unit_needs_is_said() {
     let error = with(body).unwrap().to_rust(fingertip_scene::Scalar::F32, None).unwrap_err().to_string();
     assert!(error.contains("the section [inertial_unit] has no type"), "{error}");
 }
+
+/// Up to half a second lies between two samples of one motion; behind a longer pause the next is the first.
+#[test]
+fn a_pause_is_no_motion() {
+    let body = "mass_kg = 0.1\ninertia_kg_m2 = [[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]]\n";
+    let scene = Scene::from_text(&format!("{HEAD}[payload]\n{body}[inertial_unit]\n{BALL}")).unwrap();
+    let push = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -1.0), Vector3::zeros());
+    let turning = |rate: f64| InertialReading {
+        acceleration: Vector3::new(0.0, 0.0, 9.8),
+        angular_velocity: Vector3::z() * rate,
+    };
+    let first = scene.pipeline().sense_inertial(push, &turning(30.0), 0.0).unwrap().touch.wrench;
+    for (pause, starts) in [(0.5, false), (0.51, true)] {
+        let mut pipeline = scene.pipeline();
+        for _ in 0..3 {
+            pipeline.sense_inertial(push, &turning(0.0), 1e-3).unwrap();
+        }
+        let found = pipeline.sense_inertial(push, &turning(30.0), pause).unwrap().touch.wrench;
+        assert_eq!(found == first, starts, "{found:?} after {pause} s, {first:?} at first");
+    }
+}

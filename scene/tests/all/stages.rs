@@ -72,6 +72,24 @@ fn the_place_of_a_track_is_that_of_all_samples() {
         })
         .collect();
     assert!(widths[99] < 0.5 * widths[0], "{widths:?}");
+    // Pressed askew, it is told along the tangents of the track, with what both have in common.
+    let mut together = 0.0_f64;
+    for push in pushes(12, 200) {
+        let felt = *pipeline.sense(push, 1e-3);
+        let (Some(found), Some(tracked)) = (pipeline.place_covariance(), felt.tracked) else { continue };
+        let [a, b] = tracked.tangents;
+        let told = [a.dot(&(found * a)), a.dot(&(found * b)), b.dot(&(found * a)), b.dot(&(found * b))];
+        let m = tracked.position_covariance;
+        for (told, wanted) in told.into_iter().zip([m.m11, m.m12, m.m21, m.m22]) {
+            assert!((told - wanted).abs() < 1e-9 * m.trace(), "{found} for {m}");
+        }
+        together = together.max(m.m12.abs() / m.trace());
+    }
+    assert!(together > 0.005, "{together}");
+    pipeline.reset();
+    for _ in 0..100 {
+        pipeline.sense(push, 1e-3);
+    }
     // Without a contact the track goes on, less and less sure.
     pipeline.sense(Wrench::on_fingertip(Vector3::zeros(), Vector3::zeros()), 1e-3);
     assert!(pipeline.place_covariance().unwrap().trace().sqrt() > widths[99]);

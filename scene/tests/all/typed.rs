@@ -228,7 +228,7 @@ fn columns_are_one_sample_after_another() {
         };
         let (mut together, mut alone) = (scene.pipeline(), scene.pipeline());
         together.sense_all(core::array::from_fn(|axis| &columns[axis][..]), 1e-3, touches);
-        let mut pressed = 0;
+        let (mut pressed, mut same) = (0, true);
         for (k, push) in samples.iter().enumerate() {
             let felt = alone.sense(*push, 1e-3);
             let force = felt.force();
@@ -254,11 +254,14 @@ fn columns_are_one_sample_after_another() {
                     "sample {k}: {} for {expected}\n{text}",
                     column[k]
                 );
+                same &= error == 0.0;
             }
             assert_eq!(slip[k], felt.touch.slip.unwrap_or(SlipVerdict::NotPressing), "sample {k}\n{text}");
             pressed += usize::from(felt.contact().is_some());
         }
         assert!(pressed > 200, "{pressed}\n{text}");
+        // Vectors round otherwise, but on a plane: where they are meant to be taken they were.
+        assert!(exact || !same || text.contains("plane"), "{text}");
         // What comes next finds both as they are behind the last sample.
         assert_eq!(together, alone, "{text}");
         assert!(found.iter().all(|column| column[1500..].iter().all(|x| x.is_nan())));

@@ -3,6 +3,7 @@
 use fingertip_scene::{Convention, Scene};
 use std::path::Path;
 
+use crate::front::Folder;
 use crate::{BALL, HEAD, NOISE};
 
 #[test]
@@ -248,6 +249,22 @@ fn what_is_hardly_meant_is_doubted() {
     ] {
         let found = doubts(&text);
         assert!(found.len() == 1 && found[0].contains(expected), "{found:?} lacks {expected}");
+    }
+}
+
+/// The file of a mesh says no unit: by a wrong one it reaches too far, or nowhere, and how far is told in few digits.
+#[test]
+fn a_mesh_in_another_unit_is_doubted() {
+    let folder = Folder::new("mesh-doubts");
+    let corner = "v 0 0 0\nv 30 0 0\nv 0 30 0\nv 0 0 30\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    std::fs::write(folder.path().join("tip.obj"), corner).unwrap();
+    // The middle of its box is 15 from every side.
+    for (unit, reach) in [("1.0", "25.98"), ("1e-7", "3e-6 m")] {
+        let text =
+            format!("{HEAD}[surface]\nshape = \"mesh\"\nfile = \"tip.obj\"\nmetres_per_unit = {unit}\n");
+        let found = Scene::parse(&text, "scene", folder.path()).unwrap().doubts();
+        let wanted = format!("by which the mesh reaches {reach}");
+        assert!(found.len() == 1 && found[0].contains(&wanted), "{found:?} lacks {wanted}");
     }
 }
 
