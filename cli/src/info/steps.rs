@@ -110,4 +110,19 @@ mod tests {
         assert!(said.ends_with(&format!("\n  {uneven}\n")), "{said}");
         assert_eq!((Steps::default().said(""), Steps::default().uneven()), (String::new(), String::new()));
     }
+
+    /// Seconds since 1970 in double precision are exact to a quarter of a microsecond.
+    #[test]
+    fn what_times_are_rounded_by_is_no_jitter() {
+        let jitter = |uneven: f64| {
+            let mut timing = Timing::default();
+            let late = |k: u32| if k.is_multiple_of(2) { uneven } else { 0.0 };
+            (0..1000_u32).for_each(|k| timing.add(1.79e9 + f64::from(k) * 1e-3 + late(k)));
+            assert!(timing.jitter().is_some_and(|jitter| jitter > 0.0));
+            Steps::from(&timing).jitter
+        };
+        assert_eq!(jitter(0.0), Some(0.0));
+        // Every step is longer or shorter by as much.
+        assert!(jitter(1e-5).is_some_and(|found| (found - 1e-5).abs() < 1e-6));
+    }
 }

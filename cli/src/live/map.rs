@@ -129,7 +129,7 @@ fn paint(canvas: &mut Context<'_>, projection: &Projection, state: &State, conta
         }
     }
     let (x, y) = projection.project(&contact.point);
-    if x.is_finite() && y.is_finite() {
+    if [x, y].iter().all(|number| number.is_finite()) {
         canvas.print(x, y, Line::from("●").fg(Color::White).bold());
     }
 }

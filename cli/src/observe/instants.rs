@@ -132,9 +132,15 @@ mod tests {
         instants.add(0.5, scene.pipeline().sense(push, 1e-3));
         let instant = instants.kept()[0];
         assert!((instant.normal_force - 2.0).abs() < 1e-12 && (instant.deviation - 0.01).abs() < 1e-9);
-        for (u, v) in instant.outline(scene.projection()).unwrap() {
-            assert!((u.hypot(v) - 0.05 * 2.447_746_8).abs() < 1e-6, "{u} {v}");
+        let (outline, radius) = (instant.outline(scene.projection()).unwrap(), 0.05 * 2.447_746_8);
+        for (u, v) in &outline {
+            assert!((u.hypot(*v) - radius).abs() < 1e-6, "{u} {v}");
         }
+        // All around: by Gauss's area formula nearly that of the circle.
+        let next = outline.iter().cycle().skip(1);
+        let area: f64 = 0.5 * outline.iter().zip(next).map(|((a, b), (c, d))| a * d - b * c).sum::<f64>();
+        let share = area.abs() / (core::f64::consts::PI * radius * radius);
+        assert!((0.99..1.0).contains(&share), "{share}");
     }
 
     /// The map of a cylinder is cut where its sides meet: an ellipse there is none on the map, however far along the

@@ -87,11 +87,8 @@ impl Out {
                 io::copy(whole.get_mut(), &mut stream)?;
                 stream.finish()
             }
-            Self::File { file, listed } => {
-                let put = file.finish().map_err(told);
-                drop(listed);
-                put
-            }
+            // It is listed as unfinished until it is in its place.
+            Self::File { file, listed: _listed } => file.finish().map_err(told),
         }
     }
 }

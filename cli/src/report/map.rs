@@ -91,12 +91,10 @@ fn polar(
     svg.label("name", (2.0, 12.0), Anchor::Start, "angle from the pole");
     svg.label("name halo", (centre.0 + disk - 5.0, centre.1 - 5.0), Anchor::End, names[0]);
     svg.label("name halo", (centre.0 + 6.0, TOP + 14.0), Anchor::Start, names[1]);
-    // Ring labels last, on a slant between two spokes, so that they stay readable; those of the names come first.
+    // Ring labels last, on a slant between two spokes, so that they stay readable; the names are not as long as that.
     let (sin, cos) = (0.375 * PI).sin_cos();
     let mut placed = Placed::default();
     let mut has_room = |(x, y): (f64, f64), half: f64| placed.take([x - half, x + half, y - 8.0, y + 2.0]);
-    let half_name = 0.5 * text_width(names[1], TICK_SIZE);
-    has_room((centre.0 + 6.0 + half_name, TOP + 14.0), half_name);
     for ring in rings {
         let at = scale * chord(ring);
         let label = format!("{:.0}°", ring.to_degrees());

@@ -85,8 +85,7 @@ impl Stream {
     /// What went missing so far.
     pub(crate) fn losses(&self) -> Losses {
         match &self.feed {
-            Some(feed) if self.reconnections > 0 => self.before.and(feed.losses()),
-            Some(feed) => feed.losses(),
+            Some(feed) => self.before.and(feed.losses()),
             None => self.before,
         }
     }

@@ -17,6 +17,7 @@ mod exports;
 mod fused;
 mod hand;
 mod health;
+mod library;
 mod live;
 mod nano17;
 mod object;

@@ -342,6 +342,10 @@ fn a_run_says_as_much_as_is_asked_for() {
     assert_eq!(contacts, format!("wrote contacts contacts.csv: {} bytes", bytes("contacts.csv")));
     assert_eq!(report, format!("wrote report report.html: {} bytes", bytes("report.html")));
     assert!(took.starts_with("took ") && took.ends_with(" s"), "{took}");
+    // What else is read whole, of which nothing may come.
+    folder.write("matrix.csv", "1,2\n");
+    let said = folder.fail(1, &["import", "matrix.csv", "-o", "matrix.toml", "--full-scale", "10,0.1", "-v"]);
+    assert!(said.starts_with("reads matrix matrix.csv: 4 bytes\n"), "{said}");
     assert!(folder.fail(2, &["info", "a.csv", "-q", "-v"]).contains("cannot be used with"));
 }
 

@@ -67,6 +67,15 @@ fn choices_are_listed_and_doubts_are_said() {
     for entry in entries() {
         assert!(all.contains(&format!("\"{}\"", entry.name)) && all.contains(entry.says), "{}", entry.name);
     }
+    // Under each key, once.
+    let (mut keys, mut last) = (Vec::new(), "");
+    for entry in entries().filter(|entry| core::mem::replace(&mut last, entry.section) != entry.section) {
+        keys.push(format!("[{}] {} =", entry.section, entry.key));
+    }
+    assert!(
+        keys.len() > 4 && all.lines().filter(|line| line.starts_with('[')).eq(&keys),
+        "{keys:?} in {all}"
+    );
     let limits = folder.succeed(&["scene", "choices", "friction"]);
     assert!(limits.contains("\"load_dependent\"") && !limits.contains("\"torus\""), "{limits}");
     assert!(folder.fail(1, &["scene", "choices", "nothing"]).contains("contact.skin"));

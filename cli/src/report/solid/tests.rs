@@ -144,3 +144,15 @@ fn contacts_are_seen_from_their_side() {
         assert!(solid.axes.iter().all(|tip| tip.norm() > 8.0 && tip.norm() < 2e3 * extent.radius));
     }
 }
+
+/// Where the squares of its extent are nothing, there is no picture, rather than one of NaN.
+#[test]
+fn what_is_smaller_than_numbers_is_not_drawn() {
+    let is_drawn = |radius: &str| {
+        let scene = scene(&format!("[surface]\nshape = \"sphere\"\nradius_m = {radius}\n"));
+        let net = Net::of(scene.surface(), scene.projection(), &[]);
+        assert!(net.points.iter().all(Option::is_some), "{radius}");
+        Solid::of(scene.surface(), scene.projection(), &[]).is_some()
+    };
+    assert!(is_drawn("1e-150") && !is_drawn("1e-165") && !is_drawn("1e-300"));
+}

@@ -62,6 +62,10 @@ fn a_motion_tells_what_is_swung_and_a_touch_is_felt_through_it() {
         assert!(told.len() == 3 && told.iter().zip(truth).all(is_near), "{name}: {told:?}");
     }
     assert_eq!((told("centre of mass ").len(), told("inertia ").len()), (3, 6), "{said}");
+    // What swings is nearly all of the load.
+    let (load, left) = (told("RMS of the load "), told("RMS left "));
+    assert!(load.len() == 6 && left.len() == 6, "{said}");
+    assert!(load.iter().zip(&left).all(|(load, left)| *left < 0.2 * load), "{said}");
     folder.write("touch.csv", &motion(20.0, 3.0, Some(1.5)));
     folder.write("scene.toml", SCENE);
     let analyze = ["analyze", "touch.csv", "--scene", "scene.toml", "--no-report"];
