@@ -3,7 +3,9 @@
 use crate::uncertainty::geometry::stretched;
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{larger, largest, length, smaller, tangents, unit_or, wide};
-use fingertip_surfaces::{ForceLine, Gauge, LocalSurface, Powers, SmoothSurface, Superquadric};
+use fingertip_surfaces::{
+    ActiveSurface, ForceLine, Gauge, LocalSurface, Powers, Shortcuts, SmoothSurface, Superquadric,
+};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -67,9 +69,9 @@ fn search_finely<T: Real>(
 /// The contact of a force that presses steeply, by Newton's method on the surface.
 ///
 /// It begins where the contact would be on the ellipsoid with the same semi-axes
-/// (`docs/theory/contact.md#central-quadrics`), and where steps from there lead to where the force pulls, once more where
-/// the normal is the one that it would have on the ellipsoid. The last step, of which the square is nothing, is not
-/// evaluated. On a convex body any contact that presses is the only one; `None` where the steps do not settle, where
+/// (`docs/theory/contact.md#central-quadrics`), and where the force pulls there, where the normal is the one that it would
+/// have on the ellipsoid. Where steps from there lead to where the force pulls, it begins once more where the line of action
+/// enters. The last step, of which the square is nothing, is not evaluated. On a convex body any contact that presses is the only one; `None` where the steps do not settle, where
 /// rounding grows, and of numbers that carry more than a value, such as dual ones: the steps that are enough for the
 /// value are too few for its derivative.
 #[inline(never)]
@@ -80,8 +82,11 @@ fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<Soft
     // In units of its size and of the force no square leaves the range.
     let (force, torque) = (push.force(), push.torque());
     let (strength, unit) = (force.amax().normalising_factor(), shape.semi_axes().amax().normalising_factor());
-    let (shape, f, m) = (shape.scaled(unit), force * strength, torque * (strength * unit));
-    let arrival = arrive(&shape, &f, &m)?;
+    let (scaled, f, m) = (shape.scaled(unit), force * strength, torque * (strength * unit));
+    let arrival = match from_ellipsoid(&scaled, &f, &m) {
+        Some(arrival) => arrival,
+        None => from_entry(shape, push, unit, (&scaled, &f, &m))?,
+    };
     let place = arrival.place + arrival.step;
     let turned = arrival.normal + arrival.turn;
     let normal = turned / turned.norm_squared().root();
@@ -91,7 +96,8 @@ fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<Soft
     let growth = (twist + pressing) * (twist + whole) * arrival.inverse;
     let steep = pressing >= larger(whole, twist) * flat();
     let spins_little = spin.abs() <= whole * place.amax();
-    let steady = steep & spins_little & (growth <= T::literal(STEADY));
+    // A determinant beyond the range makes steps of zero.
+    let steady = steep & spins_little & (growth <= T::literal(STEADY)) & (arrival.inverse > T::zero());
     let point = place / unit;
     let spin_torque = normal.dot(&(torque - point.cross(&force)));
     steady.then_some(SoftContact { point, normal, spin_torque, active: true })
@@ -103,14 +109,36 @@ struct Arrival<T: Real> {
     step: Vector3<T>,
     normal: Vector3<T>,
     turn: Vector3<T>,
-    /// One over the determinant of the equations.
+    /// One over the determinant of the equations; zero of one that is beyond the range.
     inverse: T,
     /// The sum of the curvatures.
     steepest: T,
 }
 
+/// From the place of the contact on the ellipsoid with the same semi-axes, or of its normal.
+#[inline(always)]
+fn from_ellipsoid<T: Real>(shape: &Superquadric<T>, f: &Vector3<T>, m: &Vector3<T>) -> Option<Arrival<T>> {
+    let axes = shape.semi_axes();
+    let on_sphere = on_ellipsoid(&axes, f, m);
+    let with_its_normal = || shape.farthest_along(&on_sphere.component_div(&axes)).1;
+    arrive(shape, f, m, on_sphere.component_mul(&axes), Some(with_its_normal))
+}
+
+/// From where the line of action enters: there the force presses, and little spin is left.
+#[cold]
+#[inline(never)]
+fn from_entry<T: Real>(
+    shape: &Superquadric<T>,
+    push: &ForceLine<T>,
+    unit: T,
+    (scaled, f, m): (&Superquadric<T>, &Vector3<T>, &Vector3<T>),
+) -> Option<Arrival<T>> {
+    let entry = shape.shortcuts().sole_entry(push)?;
+    arrive(scaled, f, m, entry.point * unit, None::<fn() -> Vector3<T>>)
+}
+
 /// Steps to the contact, until one is so fine that its square is nothing, of the size, of the radius of curvature, and of
-/// each coordinate. Powers are quick ones, until a step of these is so fine of the first two that the next one will be.
+/// each coordinate; from the start, and where they lead to where the force pulls, once from elsewhere. Powers are quick ones, until a step of these is so fine of the first two that the next one will be.
 ///
 /// At a place `c` of the surface `M = m − c × f` shall be along the normal `n`; a step `a` across it has
 /// `(τ W + f·n n×) a = M` in the plane across, with `τ = n·M` (`docs/theory/contact.md#general-surfaces`). The Hessian of
@@ -124,32 +152,34 @@ struct Arrival<T: Real> {
 /// the centre, which takes no evaluation: of a gauge the gradient is the same there, and the Hessian as much larger as the
 /// place is nearer.
 #[inline(always)]
-fn arrive<T: Real>(shape: &Superquadric<T>, f: &Vector3<T>, m: &Vector3<T>) -> Option<Arrival<T>> {
-    let axes = shape.semi_axes();
-    let on_sphere = on_ellipsoid(&axes, f, m);
-    let mut c = on_sphere.component_mul(&axes);
-    let mut is_first = true;
+fn arrive<T: Real>(
+    shape: &Superquadric<T>,
+    f: &Vector3<T>,
+    m: &Vector3<T>,
+    start: Vector3<T>,
+    mut elsewhere: Option<impl FnOnce() -> Vector3<T>>,
+) -> Option<Arrival<T>> {
+    let mut c = start;
     let (mut powers, mut fine) = (Powers::Quick, Powers::Quick.fine());
     for _ in 0..QUICK_STEPS {
-        let Gauge { value, gradient: g, bends: [(k1, q), (k2, s)] } = shape.gauge_near(&c, powers);
-        c *= T::one() / value;
+        let Gauge { value, inverse: shrink, gradient: g, bends: [(k1, q), (k2, s)] } =
+            shape.gauge_near(&c, powers);
+        c *= shrink;
         let rest = m - c.cross(f);
-        let (pulling, turning) = (f.dot(&g), g.dot(&rest));
+        let (pulling, turning) = (f.dot(&g), g.dot(&rest) * value);
         if pulling > T::zero() {
-            if !is_first {
-                return None;
-            }
-            is_first = false;
-            (_, c) = shape.farthest_along(&on_sphere.component_div(&axes));
+            c = elsewhere.take()?();
             continue;
         }
-        let per_square = T::one() / g.norm_squared();
+        // With the spin times the square of g, for which then no division is waited.
+        let square = g.norm_squared();
         let (beside_q, beside_s) = (g.cross(&q), g.cross(&s));
         let volume = g.dot(&q.cross(&s));
-        let spin = turning * value * per_square;
         let across = beside_q * (k1 * beside_q.dot(&rest)) + beside_s * (k2 * beside_s.dot(&rest));
-        let determinant = (spin * k1 * volume) * (spin * k2 * volume) + pulling * pulling;
-        let step = (across * spin + g.cross(&rest) * pulling) / determinant;
+        let pulling = pulling * square;
+        let determinant = (turning * k1 * volume) * (turning * k2 * volume) + pulling * pulling;
+        let step = (across * turning + g.cross(&rest) * pulling) * (square / determinant);
+        let per_square = T::one() / square;
         let inverse = per_square.root();
         let trace = k1 * beside_q.norm_squared() + k2 * beside_s.norm_squared();
         let steepest = trace * value * per_square * inverse;
@@ -160,7 +190,7 @@ fn arrive<T: Real>(shape: &Superquadric<T>, f: &Vector3<T>, m: &Vector3<T>) -> O
         let finest = smaller(reach, T::one() / steepest) * fine;
         let settled = size_squared <= finest * finest;
         if settled & (powers == Powers::Quick) {
-            (powers, fine) = (Powers::Exact, Powers::Exact.fine());
+            (powers, fine) = (Powers::of_last_step::<T>(), Powers::Exact.fine());
         } else if settled & within {
             let n = g * inverse;
             let bend = value * inverse;
@@ -170,7 +200,7 @@ fn arrive<T: Real>(shape: &Superquadric<T>, f: &Vector3<T>, m: &Vector3<T>) -> O
                 step,
                 normal: n,
                 turn: turn - n * n.dot(&turn),
-                inverse: T::one() / (determinant * per_square),
+                inverse: square * square * square / determinant,
                 steepest,
             });
         }

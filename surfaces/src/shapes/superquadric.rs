@@ -286,7 +286,7 @@ impl<T: Real> SmoothSurface<T> for Superquadric<T> {
         // Brought near the surface, where no power leaves the range.
         let most = point.component_mul(&self.curvatures).amax();
         let shrink = if most > T::zero() { T::one() / most } else { T::one() };
-        let Gauge { value, gradient, bends: [(around, q), (along, s)] } =
+        let Gauge { value, gradient, bends: [(around, q), (along, s)], .. } =
             self.gauge_near(&(point * shrink), Powers::Exact);
         let hessian = q * q.transpose() * (around * shrink) + s * s.transpose() * (along * shrink);
         Level { value: value / shrink - T::one(), gradient, hessian }

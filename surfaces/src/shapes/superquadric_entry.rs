@@ -97,7 +97,7 @@ impl<T: Real> Scaled<T> {
         let (mut powers, mut fine) = (Powers::Quick, Powers::Quick.fine());
         for _ in 0..most {
             let point = self.foot + direction * t;
-            let Gauge { value, gradient, bends: [(k1, q), (k2, s)] } = shape.gauge_scaled(&point, powers);
+            let Gauge { value, gradient, bends: [(k1, q), (k2, s)], .. } = shape.gauge_scaled(&point, powers);
             let slope = gradient.dot(direction);
             // False for a NaN, too.
             if !(slope < T::zero()) {
@@ -117,7 +117,7 @@ impl<T: Real> Scaled<T> {
             let within = (0..3).fold(true, |within, k| within & (away[k].abs() <= point[k].abs() * fine));
             let nothing = away.amax() <= T::EPSILON * two;
             if (within | nothing) & (powers == Powers::Quick) {
-                (powers, fine) = (Powers::Exact, Powers::Exact.fine());
+                (powers, fine) = (Powers::of_last_step::<T>(), Powers::Exact.fine());
             } else if within | nothing {
                 let turn = q * (k1 * along_q * step) + s * (k2 * along_s * step);
                 let gradient = if within { gradient + turn } else { gradient };

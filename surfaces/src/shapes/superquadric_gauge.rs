@@ -12,6 +12,8 @@ pub struct Gauge<T: Real> {
     /// 1 on the surface, and homogeneous: at `k` times the point it is `k` times as much, with the same gradient, and
     /// the Hessian is divided by `k`.
     pub value: T,
+    /// One over it.
+    pub inverse: T,
     pub gradient: Vector3<T>,
     /// The Hessian is the sum of these vectors' outer products with themselves, times these numbers.
     pub bends: [(T, Vector3<T>); 2],
@@ -23,7 +25,9 @@ pub struct Gauge<T: Real> {
 pub enum Powers {
     /// Those of the type.
     Exact,
-    /// Some eight, for the steps of a search but the last, which costs a third of the time.
+    /// Those of double precision but for the last, by logarithms that several powers share: in half the time.
+    Fine,
+    /// Some eight, for the steps of a search but the last.
     Quick,
 }
 
@@ -34,9 +38,26 @@ impl Powers {
     #[must_use]
     pub fn fine<T: Real>(self) -> T {
         match self {
-            Self::Exact => T::EPSILON.root(),
+            Self::Exact | Self::Fine => T::EPSILON.root(),
             Self::Quick => T::EPSILON.root().root() * T::literal(0.25),
         }
+    }
+
+    /// Those of the last step of a search. Logarithms in single precision would lack digits.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_last_step<T: Real>() -> Self {
+        if T::EPSILON.to_f64() > f64::EPSILON { Self::Exact } else { Self::Fine }
+    }
+
+    #[inline(always)]
+    fn logarithm<T: Real>(self, x: T) -> T {
+        if self == Self::Quick { x.quick_logarithm() } else { x.fine_logarithm() }
+    }
+
+    #[inline(always)]
+    fn power_of_two<T: Real>(self, x: T) -> T {
+        if self == Self::Quick { x.quick_power_of_two() } else { x.fine_power_of_two() }
     }
 }
 
@@ -59,9 +80,10 @@ impl<T: Real> Superquadric<T> {
     #[inline(always)]
     pub fn gauge_near(&self, point: &Vector3<T>, powers: Powers) -> Gauge<T> {
         let v = point.component_mul(&self.curvatures);
-        let Gauge { value, gradient, bends } = self.gauge_scaled(&v, powers);
+        let Gauge { value, inverse, gradient, bends } = self.gauge_scaled(&v, powers);
         Gauge {
             value,
+            inverse,
             gradient: gradient.component_mul(&self.curvatures),
             bends: bends.map(|(bend, way)| (bend, way.component_mul(&self.curvatures))),
         }
@@ -92,20 +114,21 @@ impl<T: Real> Superquadric<T> {
                 let bent = if outer == inner { sum } else { sum.power(outer * inverse_inner) };
                 (power, up, most_power * bent)
             }
-            Powers::Quick => {
-                let [most, least, z] = [most, least, z].map(T::quick_logarithm);
-                let power = (inner * (least - most)).quick_power_of_two();
+            Powers::Fine | Powers::Quick => {
+                let [most, least, z] = [most, least, z].map(|x| powers.logarithm(x));
+                let power = powers.power_of_two(inner * (least - most));
                 let around = if outer == inner {
-                    (outer * most).quick_power_of_two() * (one + power)
+                    powers.power_of_two(outer * most) * (one + power)
                 } else {
-                    (outer * (most + (one + power).quick_logarithm() * inverse_inner)).quick_power_of_two()
+                    powers.power_of_two(outer * (most + powers.logarithm(one + power) * inverse_inner))
                 };
-                (power, (outer * z).quick_power_of_two(), around)
+                (power, powers.power_of_two(outer * z), around)
             }
         };
         let whole = around + up;
-        let value = root_near_one(whole, inverse_outer, powers);
-        let (slope, weight) = (value / whole, one / (one + power));
+        // Of these divisions none waits for another.
+        let ([value, inverse], per_whole) = (root_near_one(whole, inverse_outer, powers), one / whole);
+        let (slope, weight) = (value * per_whole, one / (one + power));
         // Of the larger coordinate and of the smaller, by these. An octahedron's is the one on its edges.
         let aside = if inner > one { over(power, share) } else { one };
         let (along, aside) = (weight / most, aside * weight / most);
@@ -119,8 +142,8 @@ impl<T: Real> Superquadric<T> {
         let bend =
             slope * around * (inner - one) * steep(power, share, inner) * (weight / most) * (weight / most);
         let lean = Vector3::new(-v.z * wx, -v.z * wy, one);
-        let rise = slope * (outer - one) * (around / whole) * steep(up, z, outer);
-        Gauge { value, gradient, bends: [(bend, turn), (rise, lean)] }
+        let rise = slope * (outer - one) * (around * per_whole) * steep(up, z, outer);
+        Gauge { value, inverse, gradient, bends: [(bend, turn), (rise, lean)] }
     }
 
     /// On the third axis, where one part of the second derivatives is zero and the other infinite: their limit.
@@ -132,34 +155,40 @@ impl<T: Real> Superquadric<T> {
         let aside = z * T::EPSILON;
         // In the centre, or so near that nothing is beside it.
         if !(aside.abs() > zero) {
-            return Gauge { value: zero, gradient: Vector3::zeros(), bends: nothing };
+            return Gauge { value: zero, inverse: T::GREATEST, gradient: Vector3::zeros(), bends: nothing };
         }
         let beside = self.gauge_scaled(&Vector3::new(aside, zero, z), Powers::Exact);
-        Gauge { value: z.abs(), gradient, bends: beside.bends }
+        Gauge { value: z.abs(), inverse: T::one() / z.abs(), gradient, bends: beside.bends }
     }
 }
 
-/// `x^a` for `a` between 0 and 1, sooner where `x` is near 1.
+/// `x^a` for `a` between 0 and 1, sooner where `x` is near 1, and one over it.
 #[inline(always)]
-fn root_near_one<T: Real>(x: T, a: T, powers: Powers) -> T {
+fn root_near_one<T: Real>(x: T, a: T, powers: Powers) -> [T; 2] {
     let one = T::one();
     let (d, half) = (x - one, T::literal(0.5));
     if powers == Powers::Quick {
         // Padé's, off by d³/31 at most, which is nothing where the search ends.
         return if d.abs() < T::literal(0.25) {
-            (one + d * half * (one + a)) / (one + d * half * (one - a))
+            let (above, below) = (one + d * half * (one + a), one + d * half * (one - a));
+            [above / below, below / above]
         } else {
-            (x.quick_logarithm() * a).quick_power_of_two()
+            let power = powers.logarithm(x) * a;
+            [powers.power_of_two(power), powers.power_of_two(-power)]
         };
     }
-    if !(d.abs() < T::literal(1e-3)) {
-        return x.power(a);
-    }
-    // The binomial series, of which the sixth term is less than ε/2.
-    let [third, quarter] = [1.0 / 3.0, 1.0 / 4.0].map(T::literal);
-    let [two, three] = [2.0, 3.0].map(T::literal);
-    let rest = one + d * quarter * (a - three);
-    one + a * d * (one + d * half * (a - one) * (one + d * third * (a - two) * rest))
+    let root = if d.abs() < T::literal(1e-3) {
+        // The binomial series, of which the sixth term is less than ε/2.
+        let [third, quarter] = [1.0 / 3.0, 1.0 / 4.0].map(T::literal);
+        let [two, three] = [2.0, 3.0].map(T::literal);
+        let rest = one + d * quarter * (a - three);
+        one + a * d * (one + d * half * (a - one) * (one + d * third * (a - two) * rest))
+    } else if powers == Powers::Fine {
+        powers.power_of_two(powers.logarithm(x) * a)
+    } else {
+        x.power(a)
+    };
+    [root, one / root]
 }
 
 #[cfg(test)]

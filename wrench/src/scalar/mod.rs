@@ -4,7 +4,7 @@
 mod dual;
 pub(crate) mod hardware_sqrt;
 pub(crate) mod largest;
-mod quick_powers;
+mod powers;
 mod real;
 pub(crate) mod rounding;
 

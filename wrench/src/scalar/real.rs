@@ -88,6 +88,20 @@ pub trait Real: RealField + Copy {
         self.exp2()
     }
 
+    /// [`quick_logarithm`](Self::quick_logarithm) to the digits of double precision.
+    #[doc(hidden)]
+    #[inline]
+    fn fine_logarithm(self) -> Self {
+        self.log2()
+    }
+
+    /// [`quick_power_of_two`](Self::quick_power_of_two) to the digits of double precision.
+    #[doc(hidden)]
+    #[inline]
+    fn fine_power_of_two(self) -> Self {
+        self.exp2()
+    }
+
     /// `e` to this power.
     #[inline]
     fn exponential(self) -> Self {
@@ -237,7 +251,7 @@ fn splitter_by_epsilon<T: Real>() -> T {
 }
 
 macro_rules! real {
-    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path, $quick_logarithm:path, $quick_power:path, $($name:ident($($other:ident)?) = $function:ident),*) => {
+    ($float:ident, $mantissa_bits:literal, $exponent_mask:literal, $splitter:literal, $root:path, $quick_logarithm:path, $quick_power:path, $fine_logarithm:path, $fine_power:path, $($name:ident($($other:ident)?) = $function:ident),*) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
             const LEAST_NORMAL: Self = $float::MIN_POSITIVE;
@@ -267,6 +281,16 @@ macro_rules! real {
             #[inline]
             fn quick_power_of_two(self) -> Self {
                 $quick_power(self)
+            }
+
+            #[inline]
+            fn fine_logarithm(self) -> Self {
+                $fine_logarithm(self)
+            }
+
+            #[inline]
+            fn fine_power_of_two(self) -> Self {
+                $fine_power(self)
             }
 
             $(
@@ -304,8 +328,10 @@ real!(
     0xff,
     4_097.0,
     crate::scalar::hardware_sqrt::sqrt_f32,
-    crate::scalar::quick_powers::logarithm_f32,
-    crate::scalar::quick_powers::power_f32,
+    crate::scalar::powers::quick_logarithm_f32,
+    crate::scalar::powers::quick_power_f32,
+    libm::log2f,
+    libm::exp2f,
     power(exponent) = powf,
     exponential() = expf,
     exponential_less_one() = expm1f,
@@ -324,8 +350,10 @@ real!(
     0x7ff,
     134_217_729.0,
     nalgebra::ComplexField::sqrt,
-    crate::scalar::quick_powers::logarithm_f64,
-    crate::scalar::quick_powers::power_f64,
+    crate::scalar::powers::quick_logarithm_f64,
+    crate::scalar::powers::quick_power_f64,
+    crate::scalar::powers::fine_logarithm_f64,
+    crate::scalar::powers::fine_power_f64,
     power(exponent) = pow,
     exponential() = exp,
     exponential_less_one() = expm1,
