@@ -11,7 +11,7 @@ use super::sphere::{on_sphere, steeply_on_ball};
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, scale};
-use crate::soft_finger::closed_form::{soft_finger, sole, told};
+use crate::soft_finger::closed_form::{soft_finger, sole, steady_levers, told};
 use crate::soft_finger::double;
 use crate::soft_finger::double::{finely, spins_little};
 use crate::soft_finger::refined::refined;
@@ -88,7 +88,7 @@ fn capsule_in_double<T: Real>(
 #[inline(always)]
 fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
     let (centre, axis, half, radius) = (shape.centre(), shape.axis(), shape.half_length(), shape.radius());
-    let end = match steeply_on_round_side((&centre, &axis), radius, push) {
+    let end = match steeply_on_round_side((&centre, &axis), radius, |x| x / radius, steady_levers(), push) {
         Some((contact, height)) if height.abs() <= half => return Some(contact),
         Some((_, height)) => axis * height.signum(),
         // Along the axis.
@@ -96,7 +96,7 @@ fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Optio
     };
     let contact = steeply_on_ball(&(centre + end * half), radius, T::one() / radius, push)?;
     // It presses steeply, as on any ball; and the spin torque does not rule.
-    let (lever, spin_torque) = (radius * T::literal(0.5), contact.spin_torque);
+    let (lever, spin_torque) = (radius * steady_levers(), contact.spin_torque);
     let is_steady = spin_torque * spin_torque <= push.squared() * (lever * lever);
     ((contact.normal.dot(&end) >= T::zero()) & is_steady).then_some(contact)
 }

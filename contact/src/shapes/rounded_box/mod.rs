@@ -6,7 +6,7 @@ mod parts;
 
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{larger, largest, length, wide};
-use fingertip_surfaces::{LocalSurface, RoundedBox, SmoothSurface, Sphere};
+use fingertip_surfaces::{ForceLine, LocalSurface, RoundedBox, SmoothSurface, Sphere};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -14,7 +14,7 @@ use self::parts::{steeply_in_columns, steeply_on_rounded_box};
 use super::cylinder::on_round_side;
 use super::plane::on_plane;
 use super::sphere::on_sphere;
-use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger, told};
+use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger, steady_levers, told};
 use crate::soft_finger::double::{finely, is_steady as is_steady_at, narrow, widened};
 use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
 
@@ -110,19 +110,25 @@ fn on_rounded_box<T: Real>(
     finely(search(shape, wrench, last, T::EPSILON), is_steady_at(wrench, shape.rounding()), wrench, |_| again)
 }
 
+/// [`steady_levers`] in double precision for a narrower type: rounding of a wrench grows by the square of it.
+const LEVERS_IN_DOUBLE: f64 = 1024.0;
+
 fn rounded_box_in_double<T: Real>(
     shape: &RoundedBox<T>,
     wrench: &Wrench<f64>,
     last: Option<&Vector3<f64>>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    Some(search(&shape.in_double()?, wrench, last, T::EPSILON.to_f64()))
+    let double = shape.in_double()?;
+    let steep = ForceLine::new(wrench, ForceLine::least_squared())
+        .and_then(|push| steeply_on_rounded_box(&double, &push, LEVERS_IN_DOUBLE));
+    Some(steep.map_or_else(|| search(&double, wrench, last, T::EPSILON.to_f64()), Ok))
 }
 
 soft_finger!(
     RoundedBox,
     |shape, wrench, last, visit| told(on_rounded_box(shape, wrench, last), visit),
     sole | shape,
-    push | steeply_on_rounded_box(shape, push),
+    push | steeply_on_rounded_box(shape, push, steady_levers()),
     columns | shape,
     push | steeply_in_columns(shape, push),
     double | shape,

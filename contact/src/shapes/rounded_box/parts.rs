@@ -10,57 +10,59 @@ use crate::SoftContact;
 use crate::model::flat;
 use crate::shapes::cylinder::steeply_on_round_side;
 use crate::shapes::sphere::steeply_on_ball;
-use crate::soft_finger::closed_form::is_steady;
+use crate::soft_finger::closed_form::{is_steady, steady_levers};
 
 /// Faces, edges and corners that are tried before the long way is taken.
 const PARTS: usize = 5;
 
-/// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face that the
-/// force presses on most, and then of the part that the contact lies on whose place the part before does not hold. A convex
-/// body has no other.
+/// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face through whose
+/// plane the line of action comes last, and then of the part that the contact lies on whose place the part before does not hold. A convex
+/// body has no other. On edges and corners the spin torque may be what the force has at a lever of so many radii.
 #[inline(always)]
 pub(super) fn steeply_on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
     push: &ForceLine<T>,
+    levers: T,
 ) -> Option<SoftContact<T>> {
-    let parts = Parts::new(shape);
-    let mut side = Parts::most_pressed(push);
+    let parts = Parts::new(shape, levers);
+    let mut side = parts.entered(push);
     for _ in 0..PARTS {
         let count = side.norm_squared();
-        let found = if count <= T::one() {
-            parts.on_face(&side, push)?
+        // A face that is pressed at a flat angle may lead to an edge that is not.
+        let (found, is_steady) = if count <= T::one() {
+            parts.on_face(&side, push)
         } else if count <= T::literal(2.0) {
-            parts.on_edge(&side, push)?
+            (parts.on_edge(&side, push)?, true)
         } else {
-            parts.on_corner(&side, push)?
+            (parts.on_corner(&side, push)?, true)
         };
         let next = parts.side_of(&side, &found);
         if next == side {
-            return parts.is_sure(&side, &found).then_some(found);
+            return (is_steady & parts.is_sure(&side, &found)).then_some(found);
         }
         side = next;
     }
     None
 }
 
-/// The same without a branch, of a face and of no more than two parts behind it.
+/// The same without a branch, of a face and of the edge or corner behind it. A second one, which few need, would take a
+/// third of the time of all.
 #[inline(always)]
 pub(super) fn steeply_in_columns<T: Real>(
     shape: &RoundedBox<T>,
     push: &ForceLine<T>,
 ) -> Option<SoftContact<T>> {
     let one = T::one();
-    let parts = Parts::new(shape);
-    let face = Parts::most_pressed(push);
-    let (on_face, is_on_face) = told_or_not(parts.on_face(&face, push));
+    let parts = Parts::new(shape, steady_levers());
+    let face = parts.entered(push);
+    let (on_face, is_on_face) = parts.on_face(&face, push);
     let first = parts.side_of(&face, &on_face);
     let (on_first, second, is_on_first) = parts.on_round(&first, push);
-    let (on_second, third, is_on_second) = parts.on_round(&second, push);
     let (flat, settled) = (first == face, second == first);
-    let found = pick(flat, &on_face, &pick(settled, &on_first, &on_second));
+    let found = pick(flat, &on_face, &on_first);
     let side = face.zip_map(&second, |a, b| select_unpredictable(flat, a, b));
-    let is_round = is_on_first & (settled | (is_on_second & (third == second)));
-    let is_found = is_on_face & (face.norm_squared() <= one) & (flat | is_round);
+    let is_round = is_on_first & settled;
+    let is_found = (face.norm_squared() <= one) & ((flat & is_on_face) | (!flat & is_round));
     (is_found & parts.is_sure(&side, &found)).then_some(found)
 }
 
@@ -100,26 +102,38 @@ struct Parts<T: Real> {
     inner: Vector3<T>,
     rounding: T,
     curvature: T,
+    /// In radii, the longest lever at which a force may have the spin torque on edges and corners.
+    levers: T,
 }
 
 impl<T: Real> Parts<T> {
     #[inline(always)]
-    fn new(shape: &RoundedBox<T>) -> Self {
+    fn new(shape: &RoundedBox<T>, levers: T) -> Self {
         let (half, rounding) = (shape.half_extents(), shape.rounding());
         let core = half.map(|half| half - rounding);
         let inner = core.map(|core| core - half.sum() * (T::literal(64.0) * T::EPSILON));
-        Self { half, core, inner, rounding, curvature: T::one() / rounding }
+        Self { half, core, inner, rounding, curvature: T::one() / rounding, levers }
     }
 
-    /// The face that the force presses on most.
+    /// The face through whose plane the line of action comes last: what it enters, but for edges, corners and spin.
     #[inline(always)]
-    fn most_pressed(push: &ForceLine<T>) -> Vector3<T> {
-        let most = push.force().amax();
-        push.force().map(|f| select_unpredictable(f.abs() >= most, T::one().copysign(-f), T::zero()))
+    fn entered(&self, push: &ForceLine<T>) -> Vector3<T> {
+        let f = push.force();
+        // How far it goes to each, times |f|² and the force along the axis, so that nothing is divided.
+        let foot = f.cross(&push.torque());
+        let to = |k: usize| -self.half[k] * push.squared() - foot[k].copysign(foot[k] * f[k]);
+        let is_later = |k: usize, l: usize| to(k) * f[l].abs() >= to(l) * f[k].abs();
+        let which = [
+            is_later(0, 1) & is_later(0, 2),
+            is_later(1, 0) & is_later(1, 2),
+            is_later(2, 0) & is_later(2, 1),
+        ];
+        let part = |k: usize| select_unpredictable(which[k], T::one().copysign(-f[k]), T::zero());
+        Vector3::new(part(0), part(1), part(2))
     }
 
     #[inline(always)]
-    fn on_face(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+    fn on_face(&self, side: &Vector3<T>, push: &ForceLine<T>) -> (SoftContact<T>, bool) {
         on_face(&self.half.component_mul(side), side, push)
     }
 
@@ -127,13 +141,14 @@ impl<T: Real> Parts<T> {
     fn on_edge(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         let along = side.map(|side| select_unpredictable(side == T::zero(), T::one(), T::zero()));
         let centre = self.core.component_mul(side);
-        steeply_on_round_side((&centre, &along), self.rounding, push).map(|(found, _)| found)
+        steeply_on_round_side((&centre, &along), self.rounding, |x| x * self.curvature, self.levers, push)
+            .map(|(found, _)| found)
     }
 
     #[inline(always)]
     fn on_corner(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         let found = steeply_on_ball(&self.core.component_mul(side), self.rounding, self.curvature, push);
-        found.filter(|contact| is_steady(push, contact, self.rounding * T::literal(0.5)))
+        found.filter(|contact| is_steady(push, contact, self.rounding * self.levers))
     }
 
     /// On an edge or a corner, without a branch, the part that the contact is on then, and whether it is one.
@@ -172,21 +187,20 @@ pub(super) fn part_of<T: Real>(side: T, normal: T, place: T, core: T) -> T {
     select_unpredictable(side == T::zero(), beyond(place, core), kept)
 }
 
-/// On the plane through a point with a normal: `docs/theory/contact.md#central-quadrics`. `None` where the force presses
+/// On the plane through a point with a normal: `docs/theory/contact.md#central-quadrics`. `false` where the force presses
 /// at a flat angle, and where the spin torque is more than the force has at a lever as long as the place is far: a plane
 /// answers to what rounding of the wrench makes of it in the other torques, and a pose that turns the wrench rounds it.
 #[inline(always)]
-fn on_face<T: Real>(origin: &Vector3<T>, normal: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
+fn on_face<T: Real>(origin: &Vector3<T>, normal: &Vector3<T>, push: &ForceLine<T>) -> (SoftContact<T>, bool) {
     let force = push.force();
     let pressing = -force.dot(normal);
-    if !(pressing > T::zero() && pressing * pressing >= flat::<T>() * flat::<T>() * push.squared()) {
-        return None;
-    }
     let share = T::one() / pressing;
     let point = origin + push.torque_about(origin).cross(normal) * share;
     let spin_torque = -force.dot(&push.torque()) * share;
+    let is_steep =
+        (pressing > T::zero()) & (pressing * pressing >= flat::<T>() * flat::<T>() * push.squared());
     let is_steady = spin_torque * spin_torque <= push.squared() * point.norm_squared();
-    is_steady.then_some(SoftContact { point, normal: *normal, spin_torque, active: true })
+    (SoftContact { point, normal: *normal, spin_torque, active: true }, is_steep & is_steady)
 }
 
 /// On which side a coordinate is beyond the core: −1 or 1, or 0 if it is not.
