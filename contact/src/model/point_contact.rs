@@ -249,7 +249,10 @@ impl<T: Real> PointContact<T> {
         let entry = shortcuts.sole_entry(&push)?;
         let steep = entry.incidence_squared >= least_steepness
             && (!shortcuts.is_moved() || entry.incidence_squared >= flat_on(&shortcuts).whole_power(2));
-        (entry.active && steep).then(|| (contact_at(wrench, entry.point, entry.normal), entry.parts))
+        (entry.active && steep).then(
+            #[inline(always)]
+            || (contact_at(wrench, entry.point, entry.normal), entry.parts),
+        )
     }
 
     /// The contact, or the reason why there is none.

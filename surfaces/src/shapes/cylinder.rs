@@ -217,22 +217,25 @@ impl<T: Real> Shortcuts<T> for Cylinder<T> {
         let pressing_squared = squared - turning * turning;
         // What is left across the axis of a force that is parallel to it is noise.
         let least_squared = push.squared() * (T::EPSILON * T::EPSILON * T::literal(16.0));
-        (pressing_squared >= T::zero() && squared > least_squared).then(|| {
-            let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
-            let normal = (aside * -turning - across * pressing) * inverse;
-            let height = (torque.dot(&aside) - self.radius * along * pressing) * inverse;
-            Entry {
-                point: self.centre + normal * self.radius + self.axis * height,
-                normal,
-                incidence_squared: pressing_squared * inverse_force,
-                parts: Some(ForceParts {
-                    normal: pressing,
-                    tangential: (along * along + turning * turning).root(),
-                }),
-                active: self.is_active(height),
-            }
-            .within_range()
-        })
+        (pressing_squared >= T::zero() && squared > least_squared).then(
+            #[inline(always)]
+            || {
+                let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
+                let normal = (aside * -turning - across * pressing) * inverse;
+                let height = (torque.dot(&aside) - self.radius * along * pressing) * inverse;
+                Entry {
+                    point: self.centre + normal * self.radius + self.axis * height,
+                    normal,
+                    incidence_squared: pressing_squared * inverse_force,
+                    parts: Some(ForceParts {
+                        normal: pressing,
+                        tangential: (along * along + turning * turning).root(),
+                    }),
+                    active: self.is_active(height),
+                }
+                .within_range()
+            },
+        )
     }
 
     fn surface_residual(&self, point: &Vector3<T>) -> T {

@@ -62,7 +62,7 @@ pub(super) fn on_meshes<T: Real>(study: &mut Study<'_>) -> Result<(), Failure> {
         }));
         let timed = time(study.effort, touches.len(), || {
             for (_, wrench) in &touches {
-                black_box(model.resolve(black_box(wrench), &mesh));
+                black_box(&model.resolve(black_box(wrench), &mesh));
             }
         });
         study.push(name, "soft finger", "spin", errors, Some(timed));
