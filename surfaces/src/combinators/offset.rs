@@ -90,7 +90,7 @@ impl<T: Real, S: SignedDistance<T>> ActiveSurface<T> for Offset<T, S> {
                 report(exit);
             }
         } else {
-            all_of_lipschitz(-reach, reach, T::one(), distance, report);
+            all_of_lipschitz(-reach, reach, T::one(), |t| distance(t).0, distance, report);
         }
     }
 

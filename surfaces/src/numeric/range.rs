@@ -68,6 +68,11 @@ impl<T: Real> Range<T> {
         if turns { Self { low: ends.low.min(T::zero()), ..ends } } else { ends }
     }
 
+    pub(crate) fn square(self) -> Self {
+        let ends = Self::between(self.low * self.low, self.high * self.high);
+        if self.contains_zero() { Self { low: ends.low.min(T::zero()), ..ends } } else { ends }
+    }
+
     /// Those that are neither above one nor below minus one.
     pub(crate) fn within_one(self) -> Self {
         let clip = |x: T| x.max(-T::one()).min(T::one());
@@ -124,6 +129,8 @@ impl<T: Real> Mul for Range<T> {
 
     fn mul(self, other: Self) -> Self {
         let of = |end: T| Self::between(end * other.low, end * other.high);
-        of(self.low).hull(of(self.high))
+        let low = of(self.low);
+        // Most are of one number: of formulas at points.
+        if self.low == self.high { low } else { low.hull(of(self.high)) }
     }
 }

@@ -209,15 +209,14 @@ impl<T: Real, S: ImplicitSurface<T>> Implicit<T, S> {
         }
         let reach = squared.root() * self.radius;
         let start = self.centre + offset;
+        let place = |t: T| start + line.direction * t;
         let value = |t: T| {
-            let point = start + line.direction * t;
-            let value = self.surface.value(&point);
-            let beyond = self.steepness.below;
-            let value = if value.is_number() { value.max(-beyond).min(beyond) } else { T::one().min(beyond) };
-            (value, self.surface.gradient(&point).dot(&line.direction))
+            let (value, beyond) = (self.surface.value(&place(t)), self.steepness.below);
+            if value.is_number() { value.max(-beyond).min(beyond) } else { T::one().min(beyond) }
         };
-        all_of_lipschitz(-reach, reach, self.steepness.greatest, value, |t| {
-            let point = start + line.direction * t;
+        let with_slope = |t: T| (value(t), self.surface.gradient(&place(t)).dot(&line.direction));
+        all_of_lipschitz(-reach, reach, self.steepness.greatest, value, with_slope, |t| {
+            let point = place(t);
             visit(Crossing { along: along + t, point, normal: self.unit_gradient(&point), active: true });
         });
     }

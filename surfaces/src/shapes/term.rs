@@ -73,7 +73,7 @@ impl<T: Real> Term<T> {
     /// Its square, which is not negative; tighter than the product with itself.
     #[must_use]
     pub fn square(self) -> Self {
-        self.powi(2)
+        self.chain(self.value.square(), self.value + self.value)
     }
 
     /// A whole power.
