@@ -3,10 +3,15 @@
 
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::LazyLock;
 
 #[path = "vectors.rs"]
 mod vectors;
 pub(crate) use vectors::*;
+
+/// Those of 2 to 11.
+static INVERSES: LazyLock<[Big; 10]> =
+    LazyLock::new(|| core::array::from_fn(|k| Big::new(1.0) / Big::new((k + 2) as f64)));
 
 /// The unevaluated sum of two doubles, the second at most half a unit in the last place of the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,13 +65,11 @@ impl Big {
         if self.high <= 0.0 { Self::ZERO } else { (self.ln() * *exponent).exp() }
     }
 
-    /// By Newton's method from the logarithm of a double.
+    /// By a step of Halley's method from the logarithm of a double, whose error it takes to the third power.
     fn ln(self) -> Self {
-        let mut y = Self::new(self.high.ln());
-        for _ in 0..2 {
-            y = y + self * (-y).exp() - Self::new(1.0);
-        }
-        y
+        let y = Self::new(self.high.ln());
+        let there = y.exp();
+        y + Self::new(2.0) * (self - there) / (self + there)
     }
 
     /// `(exp(r/512))^512` with a Taylor series, times a power of two.
@@ -76,8 +79,8 @@ impl Big {
         let small = (self - LN_2 * Self::new(whole)) * Self::new(1.0 / 512.0);
         // Without the one, which would take digits.
         let (mut sum, mut term) = (small, small);
-        for k in 2..12 {
-            term = term * small / Self::new(f64::from(k));
+        for inverse in INVERSES.iter() {
+            term = term * small * *inverse;
             sum = sum + term;
         }
         for _ in 0..9 {
