@@ -78,6 +78,8 @@ fn the_quick_report_writes_its_files() {
         let infinite = |cell: &str| matches!(cell.trim(), "inf" | "-inf");
         assert!(!data.split([',', '\n']).any(infinite), "{name}: a figure is infinite");
     }
-    let unknown = Command::new(env!("CARGO_BIN_EXE_report")).arg("--fast").output().unwrap();
-    assert!(!unknown.status.success());
+    for refused in [&["--fast"][..], &["--only", "contacts"], &["--only", "contact", "--book", "book"]] {
+        let unknown = Command::new(env!("CARGO_BIN_EXE_report")).args(refused).output().unwrap();
+        assert!(!unknown.status.success(), "{refused:?}");
+    }
 }

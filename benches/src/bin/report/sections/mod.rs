@@ -27,7 +27,16 @@ const SECTIONS: [(&str, Section); 7] = [
     ("scenes", scenes::report),
 ];
 
-/// Fills the page, and returns the short parts with the names of their pages in the book.
-pub(crate) fn all(page: &mut Page, effort: Effort) -> Result<Vec<(&'static str, Part)>, Failure> {
-    SECTIONS.iter().map(|(name, section)| Ok((*name, section(page, effort)?))).collect()
+/// Fills the page with all parts, or with one, and returns the short parts with the names of their pages in the book.
+pub(crate) fn all(
+    page: &mut Page,
+    effort: Effort,
+    only: Option<&str>,
+) -> Result<Vec<(&'static str, Part)>, Failure> {
+    let wanted = |name: &str| only.is_none_or(|only| only == name);
+    if !SECTIONS.iter().any(|(name, _)| wanted(name)) {
+        return Err(format!("no such part; there are {}", SECTIONS.map(|(name, _)| name).join(", ")).into());
+    }
+    let wanted = SECTIONS.iter().filter(|(name, _)| wanted(name));
+    wanted.map(|(name, section)| Ok((*name, section(page, effort)?))).collect()
 }
