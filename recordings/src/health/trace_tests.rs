@@ -283,8 +283,8 @@ fn a_slow_motion_ends_a_rest_as_soon_as_eight_blocks_tell_it() {
 #[test]
 fn a_tare_of_a_great_load_may_leave_a_little() {
     let mut random = Pcg64Mcg::seed_from_u64(15);
-    for (left, kind) in [(15.0, StepKind::Tare), (40.0, StepKind::Several)] {
-        let mut reading = |i: u32| normal(&mut random) + if i < 800 { 1000.0 } else { left };
+    for (left, kind) in [(23.0, StepKind::Tare), (40.0, StepKind::Several)] {
+        let mut reading = |i: u32| 2.0 * normal(&mut random) + if i < 800 { 1000.0 } else { left };
         let readings: Vec<[f64; 2]> = (0..1600).map(|i| [reading(i), -reading(i)]).collect();
         let trace = trace(&readings, 2048);
         let quiet = [0, 1].map(|channel| Quiet::of(&trace, channel, None));

@@ -66,6 +66,7 @@ fn a_motion_tells_what_is_swung_and_a_touch_is_felt_through_it() {
     let (load, left) = (told("RMS of the load "), told("RMS left "));
     assert!(load.len() == 6 && left.len() == 6, "{said}");
     assert!(load.iter().zip(&left).all(|(load, left)| *left < 0.2 * load), "{said}");
+    assert!(said.contains("[inertial_unit] of a scene takes it off in motion"), "{said}");
     folder.write("touch.csv", &motion(20.0, 3.0, Some(1.5)));
     folder.write("scene.toml", SCENE);
     let analyze = ["analyze", "touch.csv", "--scene", "scene.toml", "--no-report"];
