@@ -27,6 +27,7 @@ mod parameters;
 mod pillow;
 mod pitch;
 mod shapes;
+mod short_ways;
 mod skin;
 mod skin_covariance;
 mod slanted_sides;

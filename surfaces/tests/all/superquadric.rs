@@ -3,6 +3,7 @@
 use fingertip_surfaces::*;
 use nalgebra::{Matrix3, Vector3};
 use num_dual::{DualNum, HyperDual64};
+use proptest::prelude::*;
 
 use crate::every_shape::v;
 
@@ -113,4 +114,31 @@ fn levels_are_numbers_on_axes_and_planes() {
 
 fn gauge_of(shape: &Superquadric<f64>, point: &Vector3<f64>) -> f64 {
     shape.level(point).value + 1.0
+}
+
+proptest! {
+    /// Logarithms that powers share say the same as powers of their own, up to the roundings that an exponent multiplies; and
+    /// one over the value comes with it.
+    #[test]
+    fn fine_powers_have_the_digits_of_the_type(
+        v in [0.001_f64..1.0, 0.001..1.0, 0.001..1.0],
+        exponents in [0.05_f64..1.99, 0.05..1.99],
+        stretch in 0.7_f64..1.4,
+    ) {
+        let shape = Superquadric::new(Vector3::repeat(1.0), exponents).unwrap();
+        let away = Vector3::from(v) * (stretch / shape.gauge_near(&v.into(), Powers::Exact).value);
+        let gauges = [Powers::Exact, Powers::Fine, Powers::Quick].map(|powers| shape.gauge_near(&away, powers));
+        for gauge in &gauges {
+            prop_assert!((gauge.value * gauge.inverse - 1.0).abs() < 1e-7, "{} {}", gauge.value, gauge.inverse);
+        }
+        let [exact, fine, _] = gauges;
+        prop_assert!((fine.value * fine.inverse - 1.0).abs() < 4.0 * f64::EPSILON);
+        let goal = 64.0 * f64::EPSILON * exponents.into_iter().fold(1.0, |most: f64, e| most.max(2.0 / e));
+        prop_assert!((fine.value / exact.value - 1.0).abs() < goal, "{} {}", fine.value, exact.value);
+        prop_assert!((fine.gradient - exact.gradient).norm() < goal * exact.gradient.norm());
+        for ((k, way), (exact_k, exact_way)) in fine.bends.into_iter().zip(exact.bends) {
+            prop_assert!((k - exact_k).abs() <= goal * exact_k.abs(), "{k} {exact_k}");
+            prop_assert!((way - exact_way).norm() <= goal * exact_way.norm());
+        }
+    }
 }
