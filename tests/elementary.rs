@@ -41,8 +41,7 @@ const FUNCTIONS: [&str; 28] = [
 ];
 /// Lines that call what is named alike: the methods of a formula's `Term`, which are made of those of `Real`; our
 /// `hypot` of roots; and our rotations.
-const OURS: [(&str, &str); 9] = [
-    ("surfaces/src/shapes/term.rs", "self.powi(2)"),
+const OURS: [(&str, &str); 8] = [
     ("surfaces/src/shapes/term.rs", "self * other.powi(-1)"),
     ("surfaces/src/shapes/formula.rs", "FormulaStep::Power(exponent) => a.powi(*exponent),"),
     ("surfaces/src/shapes/formula.rs", "FormulaStep::Exp => a.exp(),"),
