@@ -186,8 +186,12 @@ fn of_mended(trials: usize) {
 }
 
 #[test]
-fn intervals_of_payloads_and_mountings_hold() {
+fn intervals_of_payloads_hold() {
     of_payloads(SHORT);
+}
+
+#[test]
+fn intervals_of_mountings_hold() {
     of_mountings(SHORT);
 }
 
