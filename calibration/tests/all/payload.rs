@@ -32,7 +32,7 @@ fn errors_are_as_stated(down: Option<Vector3<f64>>, weight: Vector3<f64>) {
     let random = &mut Pcg64Mcg::seed_from_u64(31);
     let turns: Vec<_> = (0..8).map(|_| turn(random)).collect();
     let options = PayloadOptions { down, ..PayloadOptions::default() };
-    let spread = Spread::over(4_000, || {
+    let spread = Spread::over(10_000, || {
         let poses: Vec<Pose> = turns.iter().map(|turn| reading(turn, &weight, random)).collect();
         let fit = fit_payload(&poses, &options).unwrap();
         let mut errors = vec![fit.weight.norm() - weight.norm()];

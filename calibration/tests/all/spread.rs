@@ -65,9 +65,7 @@ impl Spread {
             100.0 * doubt
         );
         assert!(worst < bound, "{what}: {:.3?}", ratios.iter().map(|ratio| ratio.off).collect::<Vec<_>>());
-        // Of a bound that is wide, chance may take half.
-        let most = (0.5 * bound).max(0.05);
-        assert!(3.0 * doubt < most, "{what}: {} trials are too few: {doubt}", self.errors.len());
+        assert!(3.0 * doubt < 0.05, "{what}: {} trials are too few: {doubt}", self.errors.len());
     }
 
     /// All parameters together within 5 %, for fits that take too long to be made so often that each could
