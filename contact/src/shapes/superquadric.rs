@@ -71,9 +71,9 @@ fn search_finely<T: Real>(
 /// It begins where the contact would be on the ellipsoid with the same semi-axes
 /// (`docs/theory/contact.md#central-quadrics`), and where the force pulls there, where the normal is the one that it would
 /// have on the ellipsoid. Where steps from there lead to where the force pulls, it begins once more where the line of action
-/// enters. The last step, of which the square is nothing, is not evaluated. On a convex body any contact that presses is the only one; `None` where the steps do not settle, where
-/// rounding grows, and of numbers that carry more than a value, such as dual ones: the steps that are enough for the
-/// value are too few for its derivative.
+/// enters. The last step, of which the square is nothing, is not evaluated. On a convex body any contact that presses is the
+/// only one; `None` where the steps do not settle, where rounding grows, and of numbers that carry more than a value, such as
+/// dual ones: the steps that are enough for the value are too few for its derivative.
 #[inline(never)]
 fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
     if T::CARRIES_MORE {
@@ -83,10 +83,8 @@ fn quickly<T: Real>(shape: &Superquadric<T>, push: &ForceLine<T>) -> Option<Soft
     let (force, torque) = (push.force(), push.torque());
     let (strength, unit) = (force.amax().normalising_factor(), shape.semi_axes().amax().normalising_factor());
     let (scaled, f, m) = (shape.scaled(unit), force * strength, torque * (strength * unit));
-    let arrival = match from_ellipsoid(&scaled, &f, &m) {
-        Some(arrival) => arrival,
-        None => from_entry(shape, push, unit, (&scaled, &f, &m))?,
-    };
+    let arrival =
+        from_ellipsoid(&scaled, &f, &m).or_else(|| from_entry(shape, push, unit, (&scaled, &f, &m)))?;
     let place = arrival.place + arrival.step;
     let turned = arrival.normal + arrival.turn;
     let normal = turned / turned.norm_squared().root();
@@ -138,7 +136,8 @@ fn from_entry<T: Real>(
 }
 
 /// Steps to the contact, until one is so fine that its square is nothing, of the size, of the radius of curvature, and of
-/// each coordinate; from the start, and where they lead to where the force pulls, once from elsewhere. Powers are quick ones, until a step of these is so fine of the first two that the next one will be.
+/// each coordinate; from the start, and where they lead to where the force pulls, once from elsewhere. Powers are quick ones,
+/// until a step of these is so fine of the first two that the next one will be.
 ///
 /// At a place `c` of the surface `M = m − c × f` shall be along the normal `n`; a step `a` across it has
 /// `(τ W + f·n n×) a = M` in the plane across, with `τ = n·M` (`docs/theory/contact.md#general-surfaces`). The Hessian of
@@ -190,7 +189,8 @@ fn arrive<T: Real>(
         let finest = smaller(reach, T::one() / steepest) * fine;
         let settled = size_squared <= finest * finest;
         if settled & (powers == Powers::Quick) {
-            (powers, fine) = (Powers::of_last_step::<T>(), Powers::Exact.fine());
+            powers = Powers::of_last_step::<T>();
+            fine = powers.fine();
         } else if settled & within {
             let n = g * inverse;
             let bend = value * inverse;

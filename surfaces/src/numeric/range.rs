@@ -64,12 +64,16 @@ impl<T: Real> Range<T> {
             return self.whole_power(-exponent).reciprocal();
         }
         let ends = Self::between(self.low.whole_power(exponent), self.high.whole_power(exponent));
-        let turns = exponent > 0 && exponent % 2 == 0 && self.contains_zero();
-        if turns { Self { low: ends.low.min(T::zero()), ..ends } } else { ends }
+        if exponent > 0 && exponent % 2 == 0 { self.turned_at_zero(ends) } else { ends }
     }
 
+    /// The power to two, by one product for each end.
     pub(crate) fn square(self) -> Self {
-        let ends = Self::between(self.low * self.low, self.high * self.high);
+        self.turned_at_zero(Self::between(self.low * self.low, self.high * self.high))
+    }
+
+    /// Of an even function that is least at zero, and zero there: from its values at both ends, those in between too.
+    fn turned_at_zero(self, ends: Self) -> Self {
         if self.contains_zero() { Self { low: ends.low.min(T::zero()), ..ends } } else { ends }
     }
 

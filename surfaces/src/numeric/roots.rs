@@ -100,8 +100,8 @@ pub fn first_of_convex<T: Real>(start: T, towards: T, f: impl Fn(T) -> (T, T)) -
 const DEPTH: usize = 24;
 
 /// Every root of a function in `[low, high]` that is farther than `(high − low)·2⁻²⁰` (or 256
-/// rounding units, if that is more) from its neighbour, in ascending order. `f` returns value and derivative, and `value` the
-/// value alone, which most places are asked for; it changes by at most
+/// rounding units, if that is more) from its neighbour, in ascending order. `f` returns value and
+/// derivative, and `value` the value alone, which most places are asked for; it changes by at most
 /// `steepest` per unit length, which lets whole intervals be ruled out: this is what certifies
 /// that no root is missed (`docs/theory/surfaces.md#certified-roots`). Where two roots are closer than that,
 /// the minimum between them is still looked for.

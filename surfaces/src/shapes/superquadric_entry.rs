@@ -117,7 +117,8 @@ impl<T: Real> Scaled<T> {
             let within = (0..3).fold(true, |within, k| within & (away[k].abs() <= point[k].abs() * fine));
             let nothing = away.amax() <= T::EPSILON * two;
             if (within | nothing) & (powers == Powers::Quick) {
-                (powers, fine) = (Powers::of_last_step::<T>(), Powers::Exact.fine());
+                powers = Powers::of_last_step::<T>();
+                fine = powers.fine();
             } else if within | nothing {
                 let turn = q * (k1 * along_q * step) + s * (k2 * along_s * step);
                 let gradient = if within { gradient + turn } else { gradient };

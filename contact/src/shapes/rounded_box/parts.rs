@@ -16,8 +16,9 @@ use crate::soft_finger::closed_form::{is_steady, steady_levers};
 const PARTS: usize = 5;
 
 /// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face through whose
-/// plane the line of action comes last, and then of the part that the contact lies on whose place the part before does not hold. A convex
-/// body has no other. On edges and corners the spin torque may be what the force has at a lever of so many radii.
+/// plane the line of action comes last, and then of the part that the contact lies on whose place the part before does not
+/// hold. A convex body has no other. On edges and corners the spin torque may be what the force has at a lever of so many
+/// radii.
 #[inline(always)]
 pub(super) fn steeply_on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
