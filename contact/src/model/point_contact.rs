@@ -64,7 +64,7 @@ pub(crate) fn flat<T: Real>() -> T {
 /// The same on a surface: higher in a narrower type where a pose has moved the shape, which rounds the line once more.
 #[inline(always)]
 pub(super) fn flat_on<T: Real>(shortcuts: &impl Shortcuts<T>) -> T {
-    if is_asked_again::<T>() && shortcuts.is_moved() { T::literal(0.45) } else { flat() }
+    if is_asked_again::<T>() && shortcuts.is_moved() { T::literal(0.6) } else { flat() }
 }
 
 impl<T: Real> PointContact<T> {
