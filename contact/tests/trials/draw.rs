@@ -1,13 +1,12 @@
-//! Random shapes, each with a place on it.
+//! Random shapes, each with a place on it. The report of the benches shares this file.
 
 use fingertip_surfaces::{
-    CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Frustum, Implicit,
-    Knot, Paraboloid, Plane, Posed, Revolution, RoundedBox, Sphere, Superquadric, Torus,
+    CappedCylinder, Capsule, Cone, Cylinder, CylinderEnds, Ellipsoid, EllipticCylinder, Frustum, Knot,
+    Paraboloid, Plane, Posed, Revolution, RoundedBox, Sphere, Superquadric, Torus,
 };
 use fingertip_wrench::{Real, RigidTransform};
 use nalgebra::Vector3;
 
-use crate::more::Quartic;
 use crate::wrenches::Random;
 
 /// A shape of about a size, a place on it (but for the rounding of its numbers) and the normal there.
@@ -267,18 +266,6 @@ impl<T: Real> Drawn for Superquadric<T> {
         });
         let surface = Self::new(vector(axes), exponents.map(T::literal)).unwrap();
         (surface, found.0, found.1)
-    }
-}
-
-impl<T: Real> Drawn for Implicit<T, Quartic<T>> {
-    fn draw(random: &mut Random, size: f64) -> (Self, Vector3<f64>, Vector3<f64>) {
-        let away = random.direction();
-        let quartic = away.map(|x| x.powi(4)).sum();
-        // q s² + s/2 = 1 for the square of the distance.
-        let squared = 2.0 / (0.5 + (0.25_f64 + 4.0 * quartic).sqrt());
-        let point = away * (squared.sqrt() * size);
-        let normal = (point / size).map(|x| 4.0 * x.powi(3) + x).normalize();
-        (Self::new(Quartic { unit: T::literal(size) }).unwrap(), point, normal)
     }
 }
 

@@ -8,7 +8,9 @@ use fingertip_wrench::Real;
 use nalgebra::Vector3;
 
 use crate::big::{Big, Big3, cross, dot};
+use crate::draw::Drawn;
 use crate::exact::{Exact, length, minus, number, plus, times, unit, wide};
+use crate::wrenches::Random;
 
 /// Of a level function: its value over the length of its gradient.
 fn of_level(value: Big, gradient: &Big3) -> (Big, Big3) {
@@ -190,5 +192,17 @@ impl<T: Real, S: Exact> Exact for Posed<T, S> {
         let inside = self.inner().elsewhere(&f, &m)?;
         let turned = combined(&pose.across, &inside);
         Some(plus(&pose.origin, &[0, 1, 2].map(|k| &turned[k] / &pose.determinant)))
+    }
+}
+
+impl<T: Real> Drawn for Implicit<T, Quartic<T>> {
+    fn draw(random: &mut Random, size: f64) -> (Self, Vector3<f64>, Vector3<f64>) {
+        let away = random.direction();
+        let quartic = away.map(|x| x.powi(4)).sum();
+        // q s² + s/2 = 1 for the square of the distance.
+        let squared = 2.0 / (0.5 + (0.25_f64 + 4.0 * quartic).sqrt());
+        let point = away * (squared.sqrt() * size);
+        let normal = (point / size).map(|x| 4.0 * x.powi(3) + x).normalize();
+        (Self::new(Quartic { unit: T::literal(size) }).unwrap(), point, normal)
     }
 }

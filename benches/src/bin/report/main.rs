@@ -22,12 +22,19 @@ mod sections;
 mod table;
 mod timing;
 
+/// Shapes of drawn proportions, which the trials of contacts run on.
+#[path = "../../../../contact/tests/trials/draw.rs"]
+#[allow(dead_code, clippy::unwrap_used, reason = "the trials ask for more of it")]
+mod draw;
 #[path = "../slip_report/ramps.rs"]
 #[allow(dead_code, reason = "the slip report asks for more of it")]
 mod ramps;
 /// The table of stress cases, which the test of the root crate runs too.
 #[path = "../../../../tests/stability/mod.rs"]
 mod stability;
+#[path = "../../../../contact/tests/soft/wrenches.rs"]
+#[allow(dead_code, reason = "tests ask for more of it")]
+mod wrenches;
 
 use core::error::Error;
 use std::path::PathBuf;

@@ -1,10 +1,13 @@
 //! Wrench to contact: error against run time per shape, and what spin and noise do to each model.
 
+mod columns;
+mod drawn;
 mod many;
 mod noise;
 mod peers;
 mod study;
 
+use drawn::in_columns;
 use many::{MESHES, batches, on_meshes};
 use noise::over_noise;
 use peers::beside_parry;
@@ -147,6 +150,11 @@ fn beside_parry_diagram(figures: &[Figure]) -> Diagram {
     }
 }
 
+/// What the table of closed forms is measured on.
+const ON_DRAWN: &str = "One wrench at a time and a column of wrenches on every convex shape with a closed form, \
+                        each of eight proportions, poses and places that are drawn: the time of a contact, and how \
+                        many times as many contacts columns give.";
+
 pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
     page.heading("Wrench to contact");
     page.say(
@@ -206,5 +214,10 @@ pub(crate) fn report(page: &mut Page, effort: Effort) -> Result<Part, Failure> {
         "Greatest errors of the point over the size of the shape; the last two columns are medians.\n\n{}",
         short.markdown()
     );
+    let columns = in_columns(effort)?;
+    page.subheading("One by one and in columns");
+    page.say(ON_DRAWN);
+    page.table(&columns);
+    let said = format!("{said}\n{ON_DRAWN}\n\n{}", columns.markdown());
     Ok(("Wrench to contact".to_owned(), said))
 }

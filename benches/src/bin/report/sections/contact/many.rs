@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use fingertip_contact::batch::{BatchSurface, Contacts, SoftContacts, Wrenches};
+use fingertip_contact::batch::BatchSurface;
 use fingertip_contact::{ContactModel, Resolution, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::testing::ball_of_triangles;
 use fingertip_surfaces::{Capsule, Cone, Cylinder, Ellipsoid, Mesh, Sphere};
@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::columns::Columns;
 use super::study::{Errors, SCALE, SPIN, Study, Touch, soft_exactly};
 use crate::Failure;
 use crate::reference::{distance, point_contact};
@@ -70,70 +71,25 @@ pub(super) fn on_meshes<T: Real>(study: &mut Study<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Touches, and their wrenches as columns.
-struct Columns<T: Real> {
-    touches: Vec<(Touch, Wrench<T>)>,
-    force: [Vec<T>; 3],
-    torque: [Vec<T>; 3],
-    found: [Vec<T>; 7],
-    size: f64,
-}
-
-impl<T: Real> Columns<T> {
-    fn new(effort: Effort, level: Level, spins: bool) -> Self {
-        let size = level.size(SCALE);
-        let mut random = Pcg64Mcg::seed_from_u64(15);
-        // No multiple of a page, whose columns would compete for the lines of the cache.
-        let touches: Vec<(Touch, Wrench<T>)> = (0..effort.choose(72, 1000))
-            .map(|_| {
-                let (point, normal) = level.sample(&mut random, SCALE);
-                let force = pressing(&normal, random.random_range(0.5..1.0), &mut random) * 2.0;
-                let spin = if spins { SPIN * 2.0 * size * random.random_range(-1.0..1.0) } else { 0.0 };
-                let touch = Touch { point, force, normal, spin };
-                (touch, touch.wrench(spins, 0.0, size, &mut random))
-            })
-            .collect();
-        let column = |k: usize, pick: fn(&Wrench<T>) -> Vector3<T>| -> Vec<T> {
-            touches.iter().map(|(_, wrench)| pick(wrench)[k]).collect()
-        };
-        let force = [0, 1, 2].map(|k| column(k, Wrench::force));
-        let torque = [0, 1, 2].map(|k| column(k, Wrench::torque));
-        let found = [(); 7].map(|()| vec![T::zero(); touches.len()]);
-        Self { touches, force, torque, found, size }
-    }
-
-    fn resolve(&mut self, resolve: impl Fn(Wrenches<'_, T>, [&mut [T]; 7])) {
-        let Self { force, torque, found, .. } = self;
-        let wrenches =
-            Wrenches { force: force.each_ref().map(|v| &v[..]), torque: torque.each_ref().map(|v| &v[..]) };
-        resolve(wrenches, found.each_mut().map(|column| &mut column[..]));
-        black_box(found);
-    }
-
-    /// Of the first touches, and of those alone that `is_contact` says of what was found: the others are lost.
-    fn errors(
-        &self,
-        is_contact: impl Fn([T; 7]) -> bool,
-        exact: impl Fn(&Touch, &Wrench<T>) -> Option<Big3>,
-    ) -> Errors {
-        Errors::of(self.touches.iter().take(64).enumerate().filter_map(|(k, (touch, wrench))| {
-            let found = self.found.each_ref().map(|column| column[k]);
-            if !is_contact(found) {
-                return Some(None);
-            }
-            let [x, y, z, ..] = found;
-            Some(Some(distance(&Vector3::new(x, y, z), &exact(touch, wrench)?) / self.size))
-        }))
-    }
+/// Touches all over a shape.
+fn touches<T: Real>(effort: Effort, level: Level, spins: bool) -> Columns<T> {
+    let size = level.size(SCALE);
+    let mut random = Pcg64Mcg::seed_from_u64(15);
+    // No multiple of a page, whose columns would compete for the lines of the cache.
+    let touches = (0..effort.choose(72, 1000)).map(|_| {
+        let (point, normal) = level.sample(&mut random, SCALE);
+        let force = pressing(&normal, random.random_range(0.5..1.0), &mut random) * 2.0;
+        let spin = if spins { SPIN * 2.0 * size * random.random_range(-1.0..1.0) } else { 0.0 };
+        let touch = Touch { point, force, normal, spin };
+        (touch, touch.wrench(spins, 0.0, size, &mut random))
+    });
+    Columns::new(touches.collect(), size)
 }
 
 /// Point contacts as columns.
 fn batch<T: Real>(study: &mut Study<'_>, name: &'static str, surface: &impl BatchSurface<T>, level: Level) {
-    let mut columns = Columns::new(study.effort, level, false);
-    let resolve = |wrenches: Wrenches<'_, T>, [px, py, pz, nx, ny, nz, gap]: [&mut [T]; 7]| {
-        surface.contacts(wrenches, Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap });
-    };
-    let timed = time(study.effort, columns.touches.len(), || columns.resolve(resolve));
+    let mut columns = touches(study.effort, level, false);
+    let timed = time(study.effort, columns.touches.len(), || columns.point_contacts(surface));
     let enters = |[.., gap]: [T; 7]| gap.is_zero();
     let errors = columns.errors(enters, |touch, wrench| point_contact(level, wrench, &touch.point));
     study.push(name, "point contact, batch", "force", errors, Some(timed));
@@ -147,12 +103,8 @@ fn soft_batch<T: Real>(
     level: Level,
 ) -> Result<(), Failure> {
     let model = SoftFinger::new(T::zero())?;
-    let mut columns = Columns::new(study.effort, level, true);
-    let resolve = |wrenches: Wrenches<'_, T>, [px, py, pz, nx, ny, nz, spin_torque]: [&mut [T]; 7]| {
-        let contacts = SoftContacts { point: [px, py, pz], normal: [nx, ny, nz], spin_torque };
-        model.resolve_all(surface, wrenches, contacts);
-    };
-    let timed = time(study.effort, columns.touches.len(), || columns.resolve(resolve));
+    let mut columns = touches(study.effort, level, true);
+    let timed = time(study.effort, columns.touches.len(), || columns.soft_contacts(&model, surface));
     let has_normal = |[_, _, _, nx, ny, nz, _]: [T; 7]| Vector3::new(nx, ny, nz) != Vector3::zeros();
     let exact = |touch: &Touch, wrench: &Wrench<T>| soft_exactly(level, touch, wrench, columns.size);
     let errors = columns.errors(has_normal, exact);
