@@ -54,6 +54,13 @@ pub(crate) trait Exact {
         0.0
     }
 
+    /// Where a line of action enters through a flat end, if it does: the point and the outward normal.
+    #[allow(dead_code, reason = "the trials ask")]
+    fn through_end(&self, force: &Big3, torque: &Big3) -> Option<[Big3; 2]> {
+        let _ = (force, torque);
+        None
+    }
+
     /// The contact on an end, an edge or a tip, if the wrench has one there.
     fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
         let _ = (force, torque);

@@ -97,17 +97,56 @@ impl End {
     }
 }
 
-/// The ends of a solid around an axis, from the centre of its base.
-fn on_ends(
-    (base, axis): (&Big3, &Big3),
-    height: &Big,
-    [below, above]: [&Big; 2],
-    [force, torque]: [&Big3; 2],
-) -> Option<Big3> {
-    let lean = &(below - above) / height;
-    let top = End { origin: plus(base, &times(axis, height)), outward: axis.clone(), lean: lean.clone() };
-    let bottom = End { origin: base.clone(), outward: axis.clone().map(|x| -x), lean: -lean };
-    top.on_round(force, torque, above).or_else(|| bottom.on_round(force, torque, below))
+/// A solid around an axis, from the centre of its base.
+struct Solid {
+    base: Big3,
+    axis: Big3,
+    height: Big,
+    /// Of the base and of the top.
+    radii: [Big; 2],
+}
+
+impl Solid {
+    fn of_frustum<T: Real>(frustum: &Frustum<T>) -> Self {
+        Self {
+            base: wide(&frustum.base_centre()),
+            axis: unit(&wide(&frustum.axis())),
+            height: number(frustum.height()),
+            radii: [number(frustum.base_radius()), number(frustum.top_radius())],
+        }
+    }
+
+    fn of_cylinder<T: Real>(cylinder: &CappedCylinder<T>) -> Self {
+        let (axis, half) = (unit(&wide(&cylinder.axis())), number(cylinder.half_length()));
+        let base = minus(&wide(&cylinder.centre()), &times(&axis, &half));
+        Self {
+            base,
+            axis,
+            height: &half + &half,
+            radii: [number(cylinder.radius()), number(cylinder.radius())],
+        }
+    }
+
+    /// The top and the bottom, and their radii.
+    fn ends(&self) -> [(End, &Big); 2] {
+        let [below, above] = &self.radii;
+        let lean = &(below - above) / &self.height;
+        let origin = plus(&self.base, &times(&self.axis, &self.height));
+        let top = End { origin, outward: self.axis.clone(), lean: lean.clone() };
+        let bottom = End { origin: self.base.clone(), outward: self.axis.clone().map(|x| -x), lean: -lean };
+        [(top, above), (bottom, below)]
+    }
+
+    fn on_ends(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
+        self.ends().into_iter().find_map(|(end, radius)| end.on_round(force, torque, radius))
+    }
+
+    fn through_ends(&self, force: &Big3, torque: &Big3) -> Option<[Big3; 2]> {
+        self.ends().into_iter().find_map(|(end, radius)| {
+            let point = end.on_plane(force, torque)?;
+            at_least(radius, &length(&point)).then(|| [plus(&end.origin, &point), end.outward])
+        })
+    }
 }
 
 impl<T: Real> Exact for Frustum<T> {
@@ -127,9 +166,11 @@ impl<T: Real> Exact for Frustum<T> {
     }
 
     fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
-        let axis = unit(&wide(&self.axis()));
-        let radii = [&number(self.base_radius()), &number(self.top_radius())];
-        on_ends((&wide(&self.base_centre()), &axis), &number(self.height()), radii, [force, torque])
+        Solid::of_frustum(self).on_ends(force, torque)
+    }
+
+    fn through_end(&self, force: &Big3, torque: &Big3) -> Option<[Big3; 2]> {
+        Solid::of_frustum(self).through_ends(force, torque)
     }
 }
 
@@ -145,11 +186,25 @@ impl<T: Real> Exact for CappedCylinder<T> {
     }
 
     fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
-        let (axis, half, radius) =
-            (unit(&wide(&self.axis())), number(self.half_length()), number(self.radius()));
-        let base = minus(&wide(&self.centre()), &times(&axis, &half));
-        on_ends((&base, &axis), &(&half + &half), [&radius, &radius], [force, torque])
+        Solid::of_cylinder(self).on_ends(force, torque)
     }
+
+    fn through_end(&self, force: &Big3, torque: &Big3) -> Option<[Big3; 2]> {
+        Solid::of_cylinder(self).through_ends(force, torque)
+    }
+}
+
+/// The flat ends, if there are any.
+fn ends_of_elliptic<T: Real>(cylinder: &EllipticCylinder<T>) -> Option<[End; 2]> {
+    let CylinderEnds::Capped(half) = cylinder.ends() else { return None };
+    let up = wide(&Vector3::<f64>::ith(2, 1.0));
+    let end = |outward: Big3| End { origin: times(&outward, &number(half)), outward, lean: zero() };
+    Some([end(up.clone()), end(up.map(|x| -x))])
+}
+
+fn within_ellipse(point: &Big3, [a, b]: [&Big; 2]) -> bool {
+    let (x, y) = (&point[0] / a, &point[1] / b);
+    at_least(&Big::new(1.0), &(&(&x * &x) + &(&y * &y)))
 }
 
 impl<T: Real> Exact for EllipticCylinder<T> {
@@ -169,17 +224,20 @@ impl<T: Real> Exact for EllipticCylinder<T> {
     }
 
     fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
-        let CylinderEnds::Capped(half) = self.ends() else { return None };
         let [a, b] = self.semi_axes().map(number);
-        let [e1, e2, e3] = [0, 1, 2].map(|k| wide(&Vector3::<f64>::ith(k, 1.0)));
-        [e3.clone(), e3.map(|x| -x)].into_iter().find_map(|outward| {
-            let end = End { origin: times(&outward, &number(half)), outward, lean: zero() };
-            let on_plane = end.on_plane(force, torque).filter(|point| {
-                let (x, y) = (&point[0] / &a, &point[1] / &b);
-                at_least(&Big::new(1.0), &(&(&x * &x) + &(&y * &y)))
-            });
+        let [e1, e2] = [0, 1].map(|k| wide(&Vector3::<f64>::ith(k, 1.0)));
+        ends_of_elliptic(self).into_iter().flatten().find_map(|end| {
+            let on_plane = end.on_plane(force, torque).filter(|point| within_ellipse(point, [&a, &b]));
             let found = on_plane.or_else(|| end.on_edge(force, torque, [&e1, &e2], [&a, &b]));
             found.map(|point| plus(&end.origin, &point))
+        })
+    }
+
+    fn through_end(&self, force: &Big3, torque: &Big3) -> Option<[Big3; 2]> {
+        let [a, b] = self.semi_axes().map(number);
+        ends_of_elliptic(self).into_iter().flatten().find_map(|end| {
+            let point = end.on_plane(force, torque)?;
+            within_ellipse(&point, [&a, &b]).then(|| [plus(&end.origin, &point), end.outward])
         })
     }
 }

@@ -160,6 +160,18 @@ impl Pose {
         let away = minus(point, &self.origin);
         [0, 1, 2].map(|k| dot(&self.columns[k], &away))
     }
+
+    fn outside(&self, point: &Big3) -> Big3 {
+        let turned = combined(&self.across, point);
+        plus(&self.origin, &[0, 1, 2].map(|k| &turned[k] / &self.determinant))
+    }
+
+    /// The load that has its contact inside where this one has it: `Rᵀf`, and the inverse of `R` times its determinant for
+    /// the torque.
+    fn load_inside(&self, force: &Big3, torque: &Big3) -> [Big3; 2] {
+        let about = minus(torque, &cross(&self.origin, force));
+        [(&self.columns, force), (&self.across, &about)].map(|(rows, v)| [0, 1, 2].map(|k| dot(&rows[k], v)))
+    }
 }
 
 fn combined(vectors: &[Big3; 3], shares: &Big3) -> Big3 {
@@ -183,15 +195,17 @@ impl<T: Real, S: Exact> Exact for Posed<T, S> {
         self.inner().holds(&Pose::of(self).inside(point))
     }
 
-    /// Of the wrench that has its contact there: `Rᵀf`, and the inverse of `R` times its determinant for the torque.
     fn elsewhere(&self, force: &Big3, torque: &Big3) -> Option<Big3> {
         let pose = Pose::of(self);
-        let about = minus(torque, &cross(&pose.origin, force));
-        let [f, m] = [(&pose.columns, force), (&pose.across, &about)]
-            .map(|(rows, v)| [0, 1, 2].map(|k| dot(&rows[k], v)));
-        let inside = self.inner().elsewhere(&f, &m)?;
-        let turned = combined(&pose.across, &inside);
-        Some(plus(&pose.origin, &[0, 1, 2].map(|k| &turned[k] / &pose.determinant)))
+        let [f, m] = pose.load_inside(force, torque);
+        self.inner().elsewhere(&f, &m).map(|point| pose.outside(&point))
+    }
+
+    fn through_end(&self, force: &Big3, torque: &Big3) -> Option<[Big3; 2]> {
+        let pose = Pose::of(self);
+        let [f, m] = pose.load_inside(force, torque);
+        let [point, normal] = self.inner().through_end(&f, &m)?;
+        Some([pose.outside(&point), unit(&combined(&pose.columns, &normal))])
     }
 }
 

@@ -53,6 +53,14 @@ impl Load {
         self.on_smooth(surface, big3(near)).filter(|truth| surface.holds(&truth.point))
     }
 
+    /// Where the line of action enters, next to a start.
+    pub(crate) fn entry(&self, surface: &impl Exact, near: [f64; 3]) -> Option<Truth> {
+        if let Some([point, normal]) = surface.through_end(&self.force, &self.torque) {
+            return Some(Truth { point, normal: Some(normal), spin: Big::new(0.0), steepest: 0.0 });
+        }
+        self.on_smooth(surface, big3(near)).filter(|truth| surface.holds(&truth.point))
+    }
+
     /// How the normal turns: central differences, exact to 1e-18.
     pub(crate) fn turn(&self, surface: &impl Exact, point: &Big3, normal: &Big3) -> Turn {
         let stride = Big::new(1e-9 * self.size);

@@ -144,6 +144,15 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
         distance(&found.point, &truth.point) <= 1e-3 * self.size
     }
 
+    /// What is exact of a load, next to a start.
+    fn exactly(&self, asked: Asked, load: &Load, near: Vector3<f64>) -> Option<Truth> {
+        if asked == Asked::Point {
+            load.entry(&self.surface, near.into())
+        } else {
+            load.contact(&self.surface, near.into())
+        }
+    }
+
     /// The truth nearest to a contact.
     fn truth(&self, asked: Asked, load: &Load, found: &Contact<T>) -> Option<Truth> {
         let point = found.point.map(Real::to_f64);
@@ -151,11 +160,11 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
         let lever = length(&load.torque) + length(&load.force) * number(self.size);
         let is_asked_for =
             |truth: &Truth| asked != Asked::Point || truth.spin.abs().to_f64() <= 1e-20 * lever.to_f64();
-        let from_found = load.contact(&self.surface, point.into()).filter(is_asked_for);
+        let from_found = self.exactly(asked, load, point).filter(is_asked_for);
         if from_found.as_ref().is_some_and(|truth| self.is_close(truth, found)) {
             return from_found;
         }
-        let from_start = load.contact(&self.surface, self.near.into()).filter(is_asked_for);
+        let from_start = self.exactly(asked, load, self.near).filter(is_asked_for);
         let off = |truth: &Option<Truth>| {
             truth.as_ref().map_or(f64::INFINITY, |truth| distance(&found.point, &truth.point))
         };
@@ -194,7 +203,7 @@ impl<T: Real, S: SoftFingerSurface<T> + Exact> Trial<T, S> {
                 None
             }
             Resolution::NoContact(reason) => {
-                let Some(truth) = load.contact(&self.surface, self.near.into()) else {
+                let Some(truth) = self.exactly(asked, &load, self.near) else {
                     count.none += 1;
                     return None;
                 };

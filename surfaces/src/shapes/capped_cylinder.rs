@@ -3,10 +3,13 @@
 use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use super::axis::Axis;
+use crate::numeric::twofold::{Twofold, difference};
 use crate::numeric::vectors::wide;
+use crate::shortcuts::entry_near;
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Frustum, Level, Shortcuts,
-    SignedDistance, SmoothSurface, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Frustum,
+    Level, Shortcuts, SignedDistance, SmoothSurface, Topology,
 };
 
 /// A circular cylinder with flat ends, all of it active: a [`Frustum`] with equal radii.
@@ -111,7 +114,32 @@ impl<T: Real> ActiveSurface<T> for CappedCylinder<T> {
 
     #[inline(always)]
     fn shortcuts(&self) -> impl Shortcuts<T> {
-        self.solid.shortcuts()
+        self
+    }
+}
+
+/// About the centre, which is stated: the base is rounded, and a line that grazes the side enters it farther along by that over
+/// the cosine of incidence.
+impl<T: Real> Shortcuts<T> for CappedCylinder<T> {
+    const CLOSED_CONVEX: bool = true;
+
+    #[inline(always)]
+    fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
+        (&self.solid).sole_entry(push)
+    }
+
+    /// Outside the side or the nearer end, whichever it is on.
+    fn surface_residual(&self, point: &Vector3<T>) -> T {
+        let axis = Axis::new(self.centre, self.axis());
+        let side = axis.outside_by(point, self.radius());
+        let height = axis.height_of(difference(point, &self.centre));
+        let half = Twofold::new(self.half_length);
+        let end = height.minus(half).value().max(-height.plus(half).value());
+        if end.abs() < side.abs() { end } else { side }
+    }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        entry_near(&self.in_double()?, line, near)
     }
 }
 
