@@ -1,6 +1,5 @@
 //! The file of a recording that is written: CSV or MCAP, by its ending; and what is wrong with one.
 
-use core::error::Error;
 use std::io;
 use std::path::Path;
 
@@ -73,11 +72,6 @@ pub(crate) fn csv(path: &Path, error: RecordingError) -> CliError {
 
 /// An error of an MCAP file, with its name; a disk that is full is named as such, with what to do.
 pub(crate) fn mcap(path: &Path, error: &McapError) -> CliError {
-    let causes = core::iter::successors(Some(error as &dyn Error), |&cause| cause.source());
-    let is_closed = |cause: &io::Error| cause.kind() == io::ErrorKind::BrokenPipe;
-    if causes.filter_map(|cause| cause.downcast_ref()).any(is_closed) {
-        return CliError::ClosedPipe;
-    }
     if let McapError::Write(refused) = error {
         return CliError::write("recording", path, same(refused));
     }

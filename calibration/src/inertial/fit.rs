@@ -168,7 +168,8 @@ fn resting_rate(samples: &[MovingSample], rest: f64) -> Option<Vector3<f64>> {
     let resting = resting(samples, rest);
     let sum: Vector3<f64> = resting.iter().map(|sample| sample.reading.angular_velocity).sum();
     let mean = sum / resting.len() as f64;
-    (!resting.is_empty() && mean.iter().all(|x| x.is_finite())).then_some(mean)
+    // Of no samples it is no number.
+    mean.iter().all(|x| x.is_finite()).then_some(mean)
 }
 
 /// Standard deviation of each component of the wrench.

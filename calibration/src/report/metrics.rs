@@ -382,3 +382,6 @@ pub(crate) fn lines(
         expected_mm: median(&mut expected),
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -68,6 +68,12 @@ fn what_moves_is_refused_and_what_wanders_a_little_is_said() {
     let moving = DMatrix::from_fn(500, 6, |i, j| if j == 2 { i as f64 } else { 0.0 });
     assert!(file().tared_by(&moving, false).is_err());
     assert_eq!(file().tared_by(&moving, true).unwrap().file.zero[2], 249.5);
+    // Nor has a gauge moved whose readings flicker by a count in one half and stand still in the other.
+    for flickers in [0..10, 10..20] {
+        let count = |i: usize, j: usize| j == 2 && flickers.contains(&i) && i.is_multiple_of(3);
+        let still = DMatrix::from_fn(20, 6, |i, j| if count(i, j) { 0.501 } else { 0.5 });
+        assert_eq!(file().tared_by(&still, false).unwrap().warnings, [""; 0]);
+    }
     // Readings that do not change at all are at rest.
     assert!(file().tared_by(&DMatrix::from_element(10, 6, 3.0), false).unwrap().warnings.is_empty());
 }

@@ -90,6 +90,29 @@ fn a_body_that_is_swung_comes_back() {
     }
 }
 
+/// Whoever knows that the readings come together asks for no search.
+#[test]
+fn a_delay_that_is_known_to_be_none_is_not_sought() {
+    let body = MovingBody::swung_after_a_rest();
+    let together = InertialOptions { longest_delay: 0.0, ..options() };
+    let fit = fit_inertial(&recorded(&body, &QUIET), &together).unwrap();
+    close(&fit, &body, 1e-3);
+    assert!(fit.delay.is_none() && fit.warnings.len() <= 1, "{fit:?}");
+}
+
+/// Half a swing and more, from where no step leads back: a search finds it.
+#[test]
+fn a_delay_of_more_than_half_a_swing_is_found() {
+    let body = MovingBody::swung_after_a_rest();
+    for delay in [0.31, -0.27] {
+        let samples = recorded(&body, &Recorded { delay, rate: 500.0, ..QUIET });
+        let fit = fit_inertial(&samples, &InertialOptions { longest_delay: 0.5, ..options() }).unwrap();
+        let found = fit.delay.unwrap();
+        assert!((found.seconds - delay).abs() < 1e-3, "{found:?} {delay}");
+        close(&fit, &body, 1e-2);
+    }
+}
+
 /// With noise, less than two deviations of it are left, and the body is as sure as is said.
 #[test]
 fn what_is_left_of_a_noisy_motion_is_noise_and_deviations_are_right() {
@@ -146,6 +169,8 @@ fn what_a_motion_does_not_excite_is_named() {
     assert!(!fit.undetermined.contains(&"centre of mass y"), "{:?}", fit.undetermined);
     assert!((fit.body.centre.x - centre.x).abs() < 3.0 * fit.centre_deviation.x, "{:?}", fit.body);
     assert!(fit.centre_deviation.x > 0.05 && fit.body.inertia.amax() < 2e-3, "{:?}", fit.body);
+    // What is not told of the inertia is that of a point at the centre, of which nothing is negative.
+    assert!(fit.least_moment.abs() < 5e-4, "{}", fit.least_moment);
     assert_eq!(fit.verdict(), Verdict::Suspect);
     assert!(fit.share_left() < 0.05, "{}", fit.share_left());
 }
@@ -163,6 +188,12 @@ fn mistakes_are_named() {
     assert!(matches!(reaction, InertialError::NegativeMass { .. }), "{reaction}");
     let in_g = changed(&|sample| sample.reading.acceleration /= 9.806_65).unwrap();
     assert!(in_g.warnings.iter().any(|warning| warning.contains("in g")), "{:?}", in_g.warnings);
+    // One that reads too much is told by what it reads at rest, and how far the mass is off; one that is right is not.
+    let too_much = changed(&|sample| sample.reading.acceleration *= 1.05).unwrap();
+    let told = |fit: &InertialFit, what: &str| fit.warnings.iter().any(|warning| warning.contains(what));
+    assert!(told(&too_much, "the mass may be off by 5 %"), "{:?}", too_much.warnings);
+    let right = fit_inertial(&samples, &options()).unwrap();
+    assert!(!told(&right, "accelerometer"), "{:?}", right.warnings);
     // Axes that are not as said leave much.
     let turned = InertialOptions { unit: InertialUnit::at_the_origin(), ..options() };
     match fit_inertial(&samples, &turned) {

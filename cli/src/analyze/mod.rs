@@ -111,7 +111,7 @@ fn analysed<S: Sink>(
     bar.finish_and_clear();
     let quality = *reader.quality();
     if observations.rows() == 0 {
-        if let Some(start) = arguments.span.start.filter(|_| source.has_rows()) {
+        if let Some(start) = arguments.span.start.filter(|_| source.rows() > 0) {
             return Err(CliError::option("--start", start, "must be before the end of the recording"));
         }
         return Err(CliError::NoRows { path: recording.to_owned() });

@@ -166,9 +166,9 @@ impl Source {
         (time, step)
     }
 
-    /// Whether the recording had any row.
-    pub(super) const fn has_rows(&self) -> bool {
-        self.rows > 0
+    /// How many rows of the recording have come.
+    pub(super) const fn rows(&self) -> u64 {
+        self.rows
     }
 
     /// The seconds of rest that the recording was too short for.

@@ -252,11 +252,16 @@ fn show(mut terminal: DefaultTerminal, shared: &Shared, frames: f64) -> io::Resu
 
 #[cfg(test)]
 mod tests {
+    use core::time::Duration;
     use std::net::TcpListener;
+    use std::sync::Mutex;
+    use std::thread;
 
     use clap::Parser as _;
+    use fingertip_bridges::{About, Hub};
 
-    use super::{LiveArguments, open};
+    use super::state::State;
+    use super::{LiveArguments, Shared, Stop, open, wait};
     use crate::args::{Arguments, Command};
     use crate::sensor::Event;
 
@@ -264,6 +269,26 @@ mod tests {
         match Arguments::parse_from([&["fingertip", "live"], given].concat()).command {
             Command::Live(arguments) => arguments,
             _ => panic!("another command"),
+        }
+    }
+
+    /// Without a view it goes on until the samples end, or somebody asks it to.
+    #[test]
+    fn without_a_view_it_waits_for_the_end() {
+        let ends: [fn(&Shared); 2] = [|shared| shared.hub.close(), |shared| shared.stop.ask()];
+        for end in ends {
+            let shared = Shared {
+                state: Mutex::new(State::new("test".to_owned())),
+                stop: Stop::default(),
+                hub: Hub::new(About::default()),
+            };
+            thread::scope(|scope| {
+                let waiting = scope.spawn(|| wait(&shared));
+                thread::sleep(Duration::from_millis(50));
+                assert!(!waiting.is_finished(), "it ended while samples came");
+                end(&shared);
+                waiting.join().unwrap();
+            });
         }
     }
 

@@ -428,6 +428,27 @@ mod tests {
         assert_eq!((state.samples, state.wrench.unwrap().force().x), (3 + 30, 0.0));
     }
 
+    /// A component that stands still while the others move is named, to the view and over the bridges.
+    #[test]
+    fn what_is_wrong_with_the_sensor_is_told() {
+        let count = u32::try_from(super::HEALTH_PERIOD).unwrap();
+        let moving = |k: u32, axis: usize| (f64::from(k) * (1.1 + axis as f64)).sin();
+        let samples = |dead: usize| {
+            let wrench =
+                move |k| Vector6::from_fn(|axis, _| if axis == dead { 0.25 } else { moving(k, axis) });
+            let reading = move |k| {
+                let wrench = Wrench::from_components(&wrench(k));
+                Next::Reading(Reading { time: Some(1e-3 * f64::from(k)), wrench, volts: None })
+            };
+            (0..count).map(reading).collect::<Vec<_>>()
+        };
+        let (state, _, status) = seen(samples(4), None, usize::MAX, None);
+        assert!(state.seen.len() == 1 && state.seen[0].starts_with("ty "), "{:?}", state.seen);
+        assert_eq!(status.seen, state.seen);
+        let (state, _, status) = seen(samples(9), None, usize::MAX, None);
+        assert!(state.seen.is_empty() && status.seen.is_empty(), "{:?}", state.seen);
+    }
+
     #[test]
     fn faults_are_counted_and_the_last_is_kept() {
         let faults = ["one", "two"].map(|why| Next::Fault(why.to_owned()));

@@ -223,6 +223,17 @@ mod tests {
         assert!(text.contains("--scene") && !text.contains('●'), "{text}");
     }
 
+    /// A map of a few rows would show nothing but its frame.
+    #[test]
+    fn a_map_that_is_too_low_is_left_out() {
+        let state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);
+        // Three rows of a picture are not of its body.
+        for width in [72, 200] {
+            assert!(!picture(&state, (width, 8)).contains("Contact ("), "{width}");
+            assert!(picture(&state, (width, 9)).contains("Contact ("), "{width}");
+        }
+    }
+
     #[test]
     fn addresses_are_shown_where_there_is_room() {
         let mut state = pressed(Vector3::new(-1.5, -1.2, 0.3), 100);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use fingertip_calibration::file::{Existing, WholeFile};
 
-use super::unfinished::Unfinished;
+use super::unfinished::remember;
 use crate::error::CliError;
 use crate::standard::is_standard;
 use crate::verbosity::detail;
@@ -22,10 +22,7 @@ pub(crate) struct Whole {
 
 #[derive(Debug)]
 enum Out {
-    File {
-        file: WholeFile,
-        listed: Option<Unfinished>,
-    },
+    File(WholeFile),
     Stdout(io::Stdout),
     /// A stream that cannot go back, and what will be written into it.
     Collected {
@@ -75,8 +72,8 @@ impl Out {
     fn open(path: &Path, overwrite: bool) -> io::Result<Self> {
         let existing = if overwrite { Existing::Replace } else { Existing::Keep };
         let file = WholeFile::create(path, existing).map_err(told)?;
-        let listed = file.beside().map(Unfinished::new);
-        Ok(Self::File { file, listed })
+        file.beside().into_iter().for_each(remember);
+        Ok(Self::File(file))
     }
 
     fn finish(self) -> io::Result<()> {
@@ -87,8 +84,7 @@ impl Out {
                 io::copy(whole.get_mut(), &mut stream)?;
                 stream.finish()
             }
-            // It is listed as unfinished until it is in its place.
-            Self::File { file, listed: _listed } => file.finish().map_err(told),
+            Self::File(file) => file.finish().map_err(told),
         }
     }
 }
@@ -101,7 +97,7 @@ fn told(error: io::Error) -> io::Error {
 impl Write for Out {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            Self::File { file, .. } => file.write(bytes),
+            Self::File(file) => file.write(bytes),
             Self::Stdout(stdout) => stdout.write(bytes),
             Self::Collected { whole, .. } => whole.write(bytes),
         }
@@ -109,7 +105,7 @@ impl Write for Out {
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
-            Self::File { file, .. } => file.flush(),
+            Self::File(file) => file.flush(),
             Self::Stdout(stdout) => stdout.flush(),
             Self::Collected { whole, .. } => whole.flush(),
         }
@@ -129,7 +125,7 @@ impl Write for Whole {
 impl Seek for Whole {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         match &mut self.out {
-            Out::File { file, .. } => file.seek(to),
+            Out::File(file) => file.seek(to),
             Out::Stdout(_) => Err(io::ErrorKind::NotSeekable.into()),
             Out::Collected { whole, .. } => whole.seek(to),
         }

@@ -223,11 +223,8 @@ impl<'a> Recording<'a> {
         format!("{} samples, {} s ({state})", count(self.samples), short(self.length()))
     }
 
-    /// Finishes the file, and says what is in it; `None` if there is none.
-    fn finish(&mut self, stream: &Stream) -> Result<Option<String>, CliError> {
-        if let Some(news) = &self.news {
-            news.finish_and_clear();
-        }
+    /// Finishes the file, and says what is in it; `None` if there is none. The line of news goes with the recording.
+    fn finish(mut self, stream: &Stream) -> Result<Option<String>, CliError> {
         let Some(output) = self.output.take() else { return Ok(None) };
         output.finish()?;
         let mut text = format!("{} samples in {} s", count(self.samples), short(self.length()));

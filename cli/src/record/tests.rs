@@ -93,8 +93,9 @@ fn what_is_recorded_and_what_is_not_is_counted() {
 fn one_sample_has_no_rate_and_none_no_file() {
     let one = arguments("one", &[]);
     let of_one = outputs(&one);
-    let mut recording = Recording { is_quiet: true, ..Recording::new(&one, &of_one, About::default()) };
-    assert!(recording.finish(&over()).unwrap().is_none());
+    let recording = || Recording { is_quiet: true, ..Recording::new(&one, &of_one, About::default()) };
+    assert!(recording().finish(&over()).unwrap().is_none());
+    let mut recording = recording();
     assert_eq!(recording.fault("cut"), None);
     recording.take(4.0, &reading(1.0), None).unwrap();
     let summary = recording.finish(&over()).unwrap().unwrap();

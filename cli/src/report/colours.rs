@@ -120,6 +120,13 @@ mod tests {
         check(&classes, narrow());
         assert_eq!(legend(&classes).0, [4.0, 6.0, 8.0, 10.0]);
         assert_eq!(legend(&classes).1, ["q0", "q1", "q3", "q4", "q6"]);
+        // Wherever a range ends, neither of the classes beside its ends is wider than the others.
+        for high in (1..=130).map(|i| 2.0 + 0.1 * f64::from(i)) {
+            let bounds = Classes::of([2.0, high].into_iter()).bounds;
+            let widest = 1.000_001 * (bounds[1] - bounds[0]);
+            let rest = high - bounds[bounds.len() - 1];
+            assert!(bounds[0] - 2.0 < widest && rest < widest, "{bounds:?} up to {high}");
+        }
         // Over three decades: even ratios, to two digits; two in a hundred at either end do not count.
         let wide = || (0..=100).map(|i| 10.0_f64.powf(0.03 * f64::from(i)));
         let classes = Classes::of(wide());

@@ -47,6 +47,27 @@ fn without_a_report_the_rest_is_the_same() {
     assert!(with_report.lines().count() > 10 && folder.read("a.html").contains("<svg"));
 }
 
+/// Through a filter a load comes slowly; but of what was before samples that are missing it knows nothing.
+#[test]
+fn a_filter_begins_anew_behind_a_gap() {
+    let filter = "[filter]\nkind = \"low_pass\"\ncutoff_Hz = 10.0\n[surface]";
+    let scene = SCENE.replace("[surface]", filter);
+    let scene = scene.replace("version = 1", "version = 2");
+    let scene = scene.replace("\"on_fingertip\"\n", "\"on_fingertip\"\nsample_rate_Hz = 1000.0\n");
+    let first_behind = |pause: f64| {
+        let row = |k: u32| match k {
+            0..50 => format!("{},0,0,-3,0,0,0\n", f64::from(k) * 1e-3),
+            _ => format!("{},0,0,-1,0,0,0\n", f64::from(k) * 1e-3 + pause),
+        };
+        let folder = folder(&(0..60).map(row).collect::<String>());
+        folder.write("scene.toml", &scene);
+        folder.succeed(&with(&["--output", "a.csv", "--no-report"]));
+        Contacts::parse(&folder.read("a.csv")).numbers("normal_N")[50]
+    };
+    assert!(first_behind(0.0) > 2.5);
+    assert_eq!(first_behind(0.2), 1.0);
+}
+
 #[test]
 fn every_outcome_has_its_word_and_every_contact_its_numbers() {
     let rows = [

@@ -179,6 +179,24 @@ fn rows_are_put_together_by_their_times() {
     assert_eq!(cells("contact_y_m"), [Some(0.002), Some(0.002), None, None]);
 }
 
+/// A sensor has one frame in a file of columns: the other's name is told, one that is the same is not lost.
+#[test]
+fn of_two_frames_of_a_sensor_the_second_is_told() {
+    let folder = Folder::new();
+    for (frame, lost) in [("gauges", "Lost: 1 names of frames: gauges\n"), ("palm", "Nothing was lost.\n")] {
+        let mut writer = McapWriter::new(File::create(folder.path("a.mcap")).unwrap()).unwrap();
+        let wrenches = writer.wrenches("/fingertip/wrench", "palm").unwrap();
+        let gauges = writer.signals("/fingertip/signals", frame).unwrap();
+        writer.write_wrench(wrenches, 1.0, &wrench(1.0)).unwrap();
+        let signals = RecordedSignals { unit: "V".to_owned(), values: vec![0.5; 6] };
+        writer.write_signals(gauges, 1.0, signals).unwrap();
+        writer.finish().unwrap();
+        let said = folder.succeed(&["convert", "a.mcap", "a.csv", "--overwrite"]);
+        assert!(said.ends_with(lost), "{said}");
+        assert!(folder.read("a.csv").starts_with("# frame_id: palm\nt_s,"));
+    }
+}
+
 #[test]
 fn what_cannot_be_columns_is_refused() {
     let folder = Folder::new();

@@ -6,6 +6,12 @@ use fingertip_simulation::{Options, SimulatedFingertip, standard_session};
 
 use crate::common::{Contacts, Folder, scene};
 
+/// The drawing of a report that has this title.
+fn drawing<'a>(report: &'a str, title: &str) -> &'a str {
+    let (_, rest) = report.split_once(&format!("<title>{title}</title>")).unwrap();
+    rest.split_once("</figure>").unwrap().0
+}
+
 #[test]
 fn the_demo_needs_nothing_and_finds_what_happened() {
     let folder = Folder::new();
@@ -31,6 +37,12 @@ fn the_demo_needs_nothing_and_finds_what_happened() {
     let report = folder.read("report.html");
     assert!(report.contains("Position error against load") && report.contains("prefers-color-scheme: dark"));
     assert!(!report.contains("NaN"));
+    // Every kind of dot that the legend names is there: samples by the hundred, and the nine loads of the table.
+    let dots = |class: &str| {
+        let (_, path) = drawing(&report, "Position error against load").split_once(class).unwrap();
+        path.split_once('"').unwrap().0.matches("h0").count()
+    };
+    assert!(dots("\"dots a faint\" d=\"") > 100 && dots("\"dots b large\" d=\"") == 9);
 }
 
 #[test]
@@ -168,6 +180,13 @@ fn a_simulated_hand_weighs_what_it_holds_and_keeps_it() {
     for title in ["Normal forces", "Friction left", "What it weighs", "moves in the hand"] {
         assert!(report.contains(title), "{title}");
     }
+    // The line below which a contact slips lies at zero, five sixths down from 100 % to −20 %; slips that are called are marked.
+    let left = drawing(&report, "Friction left");
+    assert!(left.contains("data-y=\"friction left / %;-20.0000;100.000\""));
+    let (_, level) = left.split_once("<path class=\"level\" d=\"M44.0 ").unwrap();
+    let height: f64 = level.split_once('L').unwrap().0.parse().unwrap();
+    assert!((height - (24.0 + 175.0 * 5.0 / 6.0)).abs() < 0.1, "{height}");
+    assert!(left.contains("<path class=\"mark\" "), "no call of a slip is marked");
     assert!(!report.contains("NaN"));
     folder.succeed(&["demo", "--hand", "--out", "again.html"]);
     assert_eq!(folder.read("again.html"), report);

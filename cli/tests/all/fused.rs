@@ -36,6 +36,8 @@ fn both_sides_of_a_gripped_ball_are_told() {
         row(0.01, &[], ["0,0,0,0", "0,0,0,0"]),
         // A place that is not the one that is pressed.
         row(0.015, &both, ["0,0,0.013,3.05", "0.013,0,0,3.2"]),
+        // Of a row that cannot be used, the cells of the array are empty, too.
+        "0.02,,0,0,0,0,0,0,0,0.013,3.05,0.013,0,0,3.2\n".to_owned(),
     ];
     let folder = Folder::new();
     folder.write("grip.csv", &format!("{HEADER}{}", rows.concat()));
@@ -59,8 +61,15 @@ fn both_sides_of_a_gripped_ball_are_told() {
     // χ² with six degrees of freedom, where all is right.
     let disagreement = contacts.numbers("fused_disagreement");
     assert!(disagreement[0] < 20.0 && disagreement[3] > 100.0, "{disagreement:?}");
-    for (name, row) in [("fused1_x_m", 1), ("fused1_fx_N", 2), ("fused2_fx_N", 2), ("fused_disagreement", 2)]
-    {
+    assert_eq!(contacts.words("status")[4], "unusable_row");
+    for (name, row) in [
+        ("fused1_x_m", 1),
+        ("fused1_fx_N", 2),
+        ("fused2_fx_N", 2),
+        ("fused_disagreement", 2),
+        ("fused1_x_m", 4),
+        ("fused_disagreement", 4),
+    ] {
         assert!(contacts.numbers(name)[row].is_nan(), "{name} of row {row}");
     }
 }

@@ -216,6 +216,30 @@ fn samples_at_one_pose_are_one_touch() {
         let text = folder.succeed(&command);
         assert!(text.contains(&format!("3 samples in contact: {touches} touches")), "{apart}: {text}");
     }
+    // Between two recordings the fingertip may have been anywhere.
+    let twice = ["object", "rolled.csv", "rolled.csv", "--scene", "tip.toml", "--apart", "0.0023"];
+    assert!(folder.succeed(&twice).contains("6 samples in contact: 2 touches"));
+}
+
+/// The first recording is longer than the rest that the scene states, the second ends within it.
+#[test]
+fn a_rest_that_does_not_end_is_told_with_the_rows_of_its_recording() {
+    let folder = folder(ball);
+    folder.write("tip.toml", &TIP.replace("100.0\n", "100.0\nrest_s = 0.2\n"));
+    let still = |rows: u8| -> String {
+        let rows = (0..rows).map(|i| format!("0.{i:02},0,0,0,0,0,0,0,0,0,1,0,0,0\n"));
+        format!("{HEADER}\n") + &rows.collect::<String>()
+    };
+    folder.write("long.csv", &format!("{}0.4,0,0,-2,0,0,0,0,0,0,1,0,0,0\n", still(30)));
+    folder.write("short.csv", &still(7));
+    let command = ["object", "long.csv", "--scene", "tip.toml"];
+    assert!(folder.succeed(&command).contains("1 samples in contact: 1 touches"));
+    let error = folder.fail(1, &["object", "long.csv", "short.csv", "--scene", "tip.toml"]);
+    let says = "short.csv ends within the 0.2 s of rest that the scene states (7 rows); shorten `rest_s`";
+    assert!(error.contains(says), "{error}");
+    // It is not the recording that ends too early.
+    let error = folder.fail(1, &[&command[..], &["--end", "0.1"]].concat());
+    assert!(error.contains("--end 0.1 must be behind `rest_s` of the scene"), "{error}");
 }
 
 #[test]

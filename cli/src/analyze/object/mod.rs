@@ -212,8 +212,10 @@ fn touch(
     touched.release();
     bar.finish_and_clear();
     if let Some(rest) = source.unfinished_rest() {
-        let (path, rows) = (recording.to_owned(), touched.rows());
-        return Err(CliError::RestTooLong { path, rest, rows });
+        if let Some(end) = window.end() {
+            return Err(CliError::option("--end", end, "must be behind `rest_s` of the scene"));
+        }
+        return Err(CliError::RestTooLong { path: recording.to_owned(), rest, rows: source.rows() });
     }
     notes.extend(source.notes().iter().cloned());
     Ok(())

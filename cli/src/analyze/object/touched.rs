@@ -12,7 +12,6 @@ use super::Object;
 /// is off by, so that they are not as many touches.
 pub(super) struct Touched {
     apart: f64,
-    rows: u64,
     samples: u64,
     touches: Vec<ObjectPoint>,
     gathered: Option<Gathered>,
@@ -68,16 +67,11 @@ fn moved(
 
 impl Touched {
     pub(super) const fn new(apart: f64) -> Self {
-        Self { apart, rows: 0, samples: 0, touches: Vec::new(), gathered: None }
-    }
-
-    pub(super) const fn rows(&self) -> u64 {
-        self.rows
+        Self { apart, samples: 0, touches: Vec::new(), gathered: None }
     }
 
     /// Nothing touches any more.
     pub(super) fn release(&mut self) {
-        self.rows += 1;
         self.touches.extend(self.gathered.take().map(|gathered| gathered.mean()));
     }
 
@@ -101,7 +95,7 @@ impl Touched {
         if !(touch.point + touch.normal).iter().chain(&touch.bend).all(|x| x.is_finite()) || !(weight > 0.0) {
             return self.release();
         }
-        (self.rows, self.samples) = (self.rows + 1, self.samples + 1);
+        self.samples += 1;
         let is_near = |gathered: &Gathered| moved(&gathered.first, pose, place.norm()) <= self.apart;
         if !self.gathered.as_ref().is_some_and(is_near) {
             self.touches.extend(self.gathered.take().map(|gathered| gathered.mean()));
