@@ -2,7 +2,7 @@
 
 use fingertip_surfaces::numeric::mixed_precision::{is_asked_again, is_refined_in_double};
 use fingertip_surfaces::numeric::twofold::Twofold;
-use fingertip_surfaces::numeric::vectors::{largest, wide};
+use fingertip_surfaces::numeric::vectors::{larger, largest, wide};
 use fingertip_surfaces::{ActiveSurface, Shortcuts};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
@@ -90,7 +90,9 @@ fn mended<T: Real, S: ActiveSurface<T>>(
     let (mut place, mut outward, mut before) = (point, normal, T::GREATEST);
     // The line is no farther away than that: the force is 1 or more in its own unit.
     let size = reach(&point) + reach(m);
-    let allowed = T::literal(64.0) * T::EPSILON * size / incidence;
+    let rounding = T::literal(64.0) * T::EPSILON * size / incidence;
+    // Along an axis the direction across it is as badly known as the line is flat.
+    let allowed = larger(rounding, (rounding / incidence).min(size * T::literal(1e-3)));
     // Kept from being unrolled: it is code for few samples.
     for _ in 0..core::hint::black_box(STEPS) {
         let off = off_line(f, m, &place);

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use fingertip_contact::{Contact, ContactModel, PointContact};
-use fingertip_surfaces::{ActiveSurface, Capsule, Posed, RoundedBox, Torus};
+use fingertip_surfaces::{ActiveSurface, CappedCylinder, Capsule, Frustum, Posed, RoundedBox, Torus};
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -181,17 +181,32 @@ fn tori_are_met_where_double_precision_says() {
     assert!(flat.iter().all(|flat| *flat > 4500), "{flat:?}");
 }
 
-/// On the side, anywhere along it.
-fn capsule(random: &mut Pcg64Mcg) -> Case<Capsule<f32>, Capsule<f64>> {
+/// A place on the side of something around an axis.
+struct Around {
+    centre: Vector3<f32>,
+    axis: Vector3<f32>,
+    radius: f32,
+    half: f32,
+    normal: Vector3<f64>,
+    height: f64,
+}
+
+fn around(random: &mut Pcg64Mcg) -> Around {
     let vector = |random: &mut Pcg64Mcg| Vector3::from_fn(|_, _| random.random_range(-1.0_f32..1.0));
     let (centre, axis) = (vector(random) * 0.01, vector(random));
     let [radius, half] = [random.random_range(0.005_f32..0.01), random.random_range(0.005_f32..0.02)];
+    let normal = axis.cross(&vector(random)).cast::<f64>().normalize();
+    let height = f64::from(half) * random.random_range(-0.99..0.99);
+    Around { centre, axis, radius, half, normal, height }
+}
+
+fn capsule(random: &mut Pcg64Mcg) -> (Vector3<f64>, Case<Capsule<f32>, Capsule<f64>>) {
+    let Around { centre, axis, radius, half, normal, height } = around(random);
     let single = Capsule::new(centre, axis, radius, half).unwrap();
     let (centre, axis) = (centre.cast::<f64>(), single.axis().cast::<f64>());
     let double = Capsule::new(centre, axis, f64::from(radius), f64::from(half)).unwrap();
-    let normal = axis.cross(&vector(random).cast()).normalize();
-    let height = f64::from(half) * random.random_range(-0.99..0.99);
-    Case { single, double, size: 0.03, point: centre + axis * height + normal * f64::from(radius), normal }
+    let point = centre + axis * height + normal * f64::from(radius);
+    (axis, Case { single, double, size: 0.03, point, normal })
 }
 
 /// One of a million had the contact where the line leaves: it met the side at a cosine of a thousandth, all but parallel to
@@ -209,20 +224,72 @@ fn lines_along_the_side_of_a_capsule_enter_where_they_do() {
     let found = contact(&wrench, &Capsule::new(centre, axis, radius, half).unwrap(), &Vector3::zeros());
     assert_eq!(judge(exact, found, f64::from(radius + half), &format!("{wrench:?}"), 1e-3), 1);
 
-    let mut random = Pcg64Mcg::seed_from_u64(94);
+    assert!(flat_along(94, capsule) > 3000);
+}
+
+/// How many of these forces, all but parallel to the axis, press at a cosine of some thousandths.
+fn flat_along<S: ActiveSurface<f32>, D: ActiveSurface<f64>>(
+    seed: u64,
+    draw: impl Fn(&mut Pcg64Mcg) -> (Vector3<f64>, Case<S, D>),
+) -> usize {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut flat = 0;
     for k in 0..6000 {
-        let case = capsule(&mut random);
-        let (single, double) = (&case.single, &case.double);
+        let (axis, case) = draw(&mut random);
         let cosine = 10_f64.powf(random.random_range(-2.8..-2.0));
         let turn = random.random_range(-1.0..1.0) * cosine;
-        let axis = double.axis();
         let along = (axis + axis.cross(&case.normal) * turn).normalize();
         let force = along * (1.0 - cosine * cosine).sqrt() - case.normal * cosine;
         let wrench = Wrench::from_force_at(&case.point.cast::<f32>(), force.cast::<f32>());
-        let exact = contact(&wide(&wrench), double, &case.point);
-        flat +=
-            judge(exact, contact(&wrench, single, &case.point), case.size, &format!("{k} {wrench:?}"), LEAST);
+        let exact = contact(&wide(&wrench), &case.double, &case.point);
+        let found = contact(&wrench, &case.single, &case.point);
+        flat += judge(exact, found, case.size, &format!("{k} {wrench:?}"), LEAST);
     }
+    flat
+}
+
+/// Two of three of these were wrong where the residual was that of the base, which rounding moves.
+#[test]
+fn lines_along_a_capped_cylinder_enter_where_they_do() {
+    let flat = flat_along(95, |random| {
+        let Around { centre, axis, radius, half, normal, height } = around(random);
+        let single = CappedCylinder::new(centre, axis, radius, half).unwrap();
+        let (centre, axis) = (centre.cast::<f64>(), single.axis().cast::<f64>());
+        let double = CappedCylinder::new(centre, axis, f64::from(radius), f64::from(half)).unwrap();
+        let point = centre + axis * height + normal * f64::from(radius);
+        (axis, Case { single, double, size: 0.03, point, normal })
+    });
     assert!(flat > 3000, "{flat}");
+}
+
+/// Of a million, one entered through the base of a large one at a flat angle beside the origin, and one grazed the side near
+/// the tip: of those the first was off by 1.7e-6 of the size, and the second was not found.
+#[test]
+fn lines_that_all_but_miss_a_frustum_enter_where_they_do() {
+    for (base, axis, [below, height], force, torque) in [
+        (
+            [0.0_f32, 0.0, 0.0],
+            [0.648_826_1_f32, -0.747_375_2, 0.143_020_93],
+            [93.422_32_f32, 279.848_57],
+            [-5_620_618_000.0_f32, 2_160_163_300.0, 101_428_670_000.0],
+            [-9_538_970_000.0_f32, -6_554_682_400.0, -388_999_700.0],
+        ),
+        (
+            [-3.664_721_7, -3.347_575_2, -0.349_470_38],
+            [0.428_505_54, -0.858_375_6, -0.282_089_26],
+            [1.659_732_8, 0.957_397_2],
+            [0.001_125_622_5, 0.002_963_420_2, -0.019_581_785],
+            [0.083_346_16, -0.066_801_794, -0.005_318_487],
+        ),
+    ] {
+        let [base, axis, force, torque] = [base, axis, force, torque].map(Vector3::from);
+        let wrench = Wrench::on_fingertip(force, torque);
+        let single = Frustum::new(base, axis, below, 0.0, height).unwrap();
+        let double =
+            Frustum::new(base.cast(), axis.cast(), f64::from(below), 0.0, f64::from(height)).unwrap();
+        let exact = contact(&wide(&wrench), &double, &Vector3::zeros());
+        let size = f64::from(below + height) + base.cast::<f64>().norm();
+        let found = contact(&wrench, &single, &Vector3::zeros());
+        assert_eq!(judge(exact, found, size, &format!("{wrench:?}"), 1e-3), 1);
+    }
 }

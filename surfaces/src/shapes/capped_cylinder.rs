@@ -138,7 +138,8 @@ impl<T: Real> Shortcuts<T> for CappedCylinder<T> {
         if end.abs() < side.abs() { end } else { side }
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    /// As on a frustum.
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         entry_near(&self.in_double()?, line, near)
     }
 }

@@ -257,7 +257,8 @@ impl<T: Real> Shortcuts<T> for Frustum<T> {
         if end.abs() < side.abs() { end } else { side }
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    /// A line that grazes may leave through an end, or enter by one that is far from where the middle is.
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         entry_near(&self.in_double()?, line, near)
     }
 }
