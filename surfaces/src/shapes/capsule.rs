@@ -195,8 +195,7 @@ impl<T: Real> Shortcuts<T> for Capsule<T> {
         self.axis.outside_ball_by(point, end, self.radius)
     }
 
-    /// A line that grazes the side may leave at an end, where the bend is another one.
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
         entry_near(&self.in_double()?, line, near)
     }
 }
