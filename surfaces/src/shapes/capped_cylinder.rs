@@ -125,7 +125,7 @@ impl<T: Real> Shortcuts<T> for CappedCylinder<T> {
 
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
-        (&self.solid).sole_entry(push)
+        self.solid.sole_entry(push)
     }
 
     /// Outside the side or the nearer end, whichever it is on.
