@@ -198,16 +198,7 @@ impl<S: Sink> Pass<'_, S> {
             }
             Ok(ControlFlow::Continue(()))
         })?;
-        if let Some(rest) = source.unfinished_rest() {
-            if let Some(end) = window.end() {
-                return Err(CliError::option("--end", end, "must be behind `rest_s` of the scene"));
-            }
-            return Err(CliError::RestTooLong {
-                path: reader.file().into(),
-                rest,
-                rows: observations.count_of(Status::Rest),
-            });
-        }
+        source.has_rested(&window, Path::new(reader.file()), observations.count_of(Status::Rest))?;
         seen(&health).into_iter().for_each(|fault| source.note(fault));
         if let Some(note) = array.as_ref().and_then(Array::note) {
             source.note(note);

@@ -17,6 +17,7 @@ use crate::gauge_rows::KnownTemperature;
 use crate::observe::Status;
 use crate::opened::Rows;
 use crate::output::printable;
+use crate::span::Window;
 use fingertip_scene::{Convention, Scene};
 
 /// What one row gives.
@@ -174,6 +175,15 @@ impl Source {
     /// The seconds of rest that the recording was too short for.
     pub(super) fn unfinished_rest(&self) -> Option<f64> {
         self.rest.filter(|_| self.rows > 0)
+    }
+
+    /// Fails where the recording is shorter than the rest, of which it had so many rows, or where `--end` cut it off before.
+    pub(super) fn has_rested(&self, window: &Window, recording: &Path, rows: u64) -> Result<(), CliError> {
+        let Some(rest) = self.unfinished_rest() else { return Ok(()) };
+        Err(match window.end() {
+            Some(end) => CliError::option("--end", end, "must be behind `rest_s` of the scene"),
+            None => CliError::RestTooLong { path: recording.to_owned(), rest, rows },
+        })
     }
 
     #[inline]

@@ -181,34 +181,28 @@ fn tori_are_met_where_double_precision_says() {
     assert!(flat.iter().all(|flat| *flat > 4500), "{flat:?}");
 }
 
-/// A place on the side of something around an axis.
-struct Around {
-    centre: Vector3<f32>,
-    axis: Vector3<f32>,
-    radius: f32,
-    half: f32,
-    normal: Vector3<f64>,
-    height: f64,
-}
-
-fn around(random: &mut Pcg64Mcg) -> Around {
+/// On the side, anywhere along it, and the axis.
+fn capped_cylinder(random: &mut Pcg64Mcg) -> (Vector3<f64>, Case<CappedCylinder<f32>, CappedCylinder<f64>>) {
     let vector = |random: &mut Pcg64Mcg| Vector3::from_fn(|_, _| random.random_range(-1.0_f32..1.0));
     let (centre, axis) = (vector(random) * 0.01, vector(random));
     let [radius, half] = [random.random_range(0.005_f32..0.01), random.random_range(0.005_f32..0.02)];
     let normal = axis.cross(&vector(random)).cast::<f64>().normalize();
     let height = f64::from(half) * random.random_range(-0.99..0.99);
-    Around { centre, axis, radius, half, normal, height }
+    let single = CappedCylinder::new(centre, axis, radius, half).unwrap();
+    let (centre, axis) = (centre.cast::<f64>(), single.axis().cast::<f64>());
+    let double = CappedCylinder::new(centre, axis, f64::from(radius), f64::from(half)).unwrap();
+    let point = centre + axis * height + normal * f64::from(radius);
+    (axis, Case { single, double, size: 0.03, point, normal })
 }
 
-/// How many of these forces, all but parallel to the axis, press at a cosine of some thousandths.
-fn flat_along<S: ActiveSurface<f32>, D: ActiveSurface<f64>>(
-    seed: u64,
-    draw: impl Fn(&mut Pcg64Mcg) -> (Vector3<f64>, Case<S, D>),
-) -> usize {
-    let mut random = Pcg64Mcg::seed_from_u64(seed);
+/// Two of three of such forces, all but along the axis, had a wrong contact where the residual was that of the base, which
+/// rounding moves.
+#[test]
+fn lines_along_a_capped_cylinder_enter_where_they_do() {
+    let mut random = Pcg64Mcg::seed_from_u64(95);
     let mut flat = 0;
     for k in 0..6000 {
-        let (axis, case) = draw(&mut random);
+        let (axis, case) = capped_cylinder(&mut random);
         let cosine = 10_f64.powf(random.random_range(-2.8..-2.0));
         let turn = random.random_range(-1.0..1.0) * cosine;
         let along = (axis + axis.cross(&case.normal) * turn).normalize();
@@ -218,24 +212,10 @@ fn flat_along<S: ActiveSurface<f32>, D: ActiveSurface<f64>>(
         let found = contact(&wrench, &case.single, &case.point);
         flat += judge(exact, found, case.size, &format!("{k} {wrench:?}"), LEAST);
     }
-    flat
-}
-
-/// Two of three of these were wrong where the residual was that of the base, which rounding moves.
-#[test]
-fn lines_along_a_capped_cylinder_enter_where_they_do() {
-    let flat = flat_along(95, |random| {
-        let Around { centre, axis, radius, half, normal, height } = around(random);
-        let single = CappedCylinder::new(centre, axis, radius, half).unwrap();
-        let (centre, axis) = (centre.cast::<f64>(), single.axis().cast::<f64>());
-        let double = CappedCylinder::new(centre, axis, f64::from(radius), f64::from(half)).unwrap();
-        let point = centre + axis * height + normal * f64::from(radius);
-        (axis, Case { single, double, size: 0.03, point, normal })
-    });
     assert!(flat > 3000, "{flat}");
 }
 
-/// Of a million, one entered through the base of a large one at a flat angle beside the origin, and one grazed the side near
+/// Of 250 000, one entered through the base of a large one at a flat angle beside the origin, and one grazed the side near
 /// the tip: of those the first was off by 1.7e-6 of the size, and the second was not found.
 #[test]
 fn lines_that_all_but_miss_a_frustum_enter_where_they_do() {

@@ -50,7 +50,7 @@ impl Load {
             let left = minus(&self.torque, &cross(&point, &self.force));
             return Some(Truth { point, normal: None, spin: length(&left), steepest: 0.0 });
         }
-        self.on_smooth(surface, big3(near)).filter(|truth| surface.holds(&truth.point))
+        self.on_what_it_holds(surface, near)
     }
 
     /// Where the line of action enters, next to a start.
@@ -58,6 +58,11 @@ impl Load {
         if let Some([point, normal]) = surface.through_end(&self.force, &self.torque) {
             return Some(Truth { point, normal: Some(normal), spin: Big::new(0.0), steepest: 0.0 });
         }
+        self.on_what_it_holds(surface, near)
+    }
+
+    /// On the part of the smooth surface that belongs to the shape.
+    fn on_what_it_holds(&self, surface: &impl Exact, near: [f64; 3]) -> Option<Truth> {
         self.on_smooth(surface, big3(near)).filter(|truth| surface.holds(&truth.point))
     }
 

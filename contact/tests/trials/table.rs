@@ -64,14 +64,15 @@ fn rows<T: Real, S: SoftFingerSurface<T> + Exact + Drawn + Debug>(name: &str, co
     counts
 }
 
-/// Both precisions of a shape.
+/// Both precisions of a shape, of numbers `T`.
 macro_rules! table {
-    ($($name:ident: $shape:ty, $single:ty;)*) => {
+    ($($name:ident: $shape:ty;)*) => {
         $(#[test]
         fn $name() {
+            type Of<T> = $shape;
             check(stringify!($name), &[
-                rows::<f64, $shape>(stringify!($name), trials(300, false)),
-                rows::<f32, $single>(stringify!($name), trials(300, false)),
+                rows::<f64, Of<f64>>(stringify!($name), trials(300, false)),
+                rows::<f32, Of<f32>>(stringify!($name), trials(300, false)),
             ]);
         })*
 
@@ -80,9 +81,10 @@ macro_rules! table {
             $(#[test]
             #[ignore = "a million trials: minutes in release"]
             fn $name() {
+                type Of<T> = $shape;
                 check(stringify!($name), &[
-                    rows::<f64, $shape>(stringify!($name), trials(0, true)),
-                    rows::<f32, $single>(stringify!($name), trials(0, true)),
+                    rows::<f64, Of<f64>>(stringify!($name), trials(0, true)),
+                    rows::<f32, Of<f32>>(stringify!($name), trials(0, true)),
                 ]);
             })*
         }
@@ -109,28 +111,28 @@ fn check(name: &str, precisions: &[[Count; 4]]) {
 }
 
 table! {
-    plane: Plane<f64>, Plane<f32>;
-    sphere: Sphere<f64>, Sphere<f32>;
-    ellipsoid: Ellipsoid<f64>, Ellipsoid<f32>;
-    paraboloid: Paraboloid<f64>, Paraboloid<f32>;
-    cylinder: Cylinder<f64>, Cylinder<f32>;
-    elliptic_cylinder: EllipticCylinder<f64>, EllipticCylinder<f32>;
-    capped_cylinder: CappedCylinder<f64>, CappedCylinder<f32>;
-    frustum: Frustum<f64>, Frustum<f32>;
-    capsule: Capsule<f64>, Capsule<f32>;
-    cone: Cone<f64>, Cone<f32>;
-    torus: Torus<f64>, Torus<f32>;
-    rounded_box: RoundedBox<f64>, RoundedBox<f32>;
-    revolution: Revolution<f64, [Knot<f64>; 2]>, Revolution<f32, [Knot<f32>; 2]>;
-    superquadric: Superquadric<f64>, Superquadric<f32>;
-    quartic: Implicit<f64, Quartic<f64>>, Implicit<f32, Quartic<f32>>;
-    posed_cylinder: Posed<f64, Cylinder<f64>>, Posed<f32, Cylinder<f32>>;
-    posed_capsule: Posed<f64, Capsule<f64>>, Posed<f32, Capsule<f32>>;
-    posed_capped_cylinder: Posed<f64, CappedCylinder<f64>>, Posed<f32, CappedCylinder<f32>>;
-    posed_elliptic_cylinder: Posed<f64, EllipticCylinder<f64>>, Posed<f32, EllipticCylinder<f32>>;
-    posed_frustum: Posed<f64, Frustum<f64>>, Posed<f32, Frustum<f32>>;
-    posed_cone: Posed<f64, Cone<f64>>, Posed<f32, Cone<f32>>;
-    posed_plane: Posed<f64, Plane<f64>>, Posed<f32, Plane<f32>>;
-    posed_sphere: Posed<f64, Sphere<f64>>, Posed<f32, Sphere<f32>>;
-    posed_ellipsoid: Posed<f64, Ellipsoid<f64>>, Posed<f32, Ellipsoid<f32>>;
+    plane: Plane<T>;
+    sphere: Sphere<T>;
+    ellipsoid: Ellipsoid<T>;
+    paraboloid: Paraboloid<T>;
+    cylinder: Cylinder<T>;
+    elliptic_cylinder: EllipticCylinder<T>;
+    capped_cylinder: CappedCylinder<T>;
+    frustum: Frustum<T>;
+    capsule: Capsule<T>;
+    cone: Cone<T>;
+    torus: Torus<T>;
+    rounded_box: RoundedBox<T>;
+    revolution: Revolution<T, [Knot<T>; 2]>;
+    superquadric: Superquadric<T>;
+    quartic: Implicit<T, Quartic<T>>;
+    posed_cylinder: Posed<T, Cylinder<T>>;
+    posed_capsule: Posed<T, Capsule<T>>;
+    posed_capped_cylinder: Posed<T, CappedCylinder<T>>;
+    posed_elliptic_cylinder: Posed<T, EllipticCylinder<T>>;
+    posed_frustum: Posed<T, Frustum<T>>;
+    posed_cone: Posed<T, Cone<T>>;
+    posed_plane: Posed<T, Plane<T>>;
+    posed_sphere: Posed<T, Sphere<T>>;
+    posed_ellipsoid: Posed<T, Ellipsoid<T>>;
 }

@@ -275,6 +275,15 @@ impl<T: Real> Axis<T> {
         self.outside_cone_by(point, radius, Twofold::new(T::zero()), T::one())
     }
 
+    /// How far a point is outside its side, which is told, or outside the nearer of flat ends at these heights, whichever it is
+    /// on; with twice the digits.
+    pub(super) fn outside_side_or_end(&self, point: &Vector3<T>, side: T, [low, high]: [T; 2]) -> T {
+        let height = self.height_of(difference(point, &self.origin));
+        let over_high = height.minus(Twofold::new(high)).value();
+        let end = over_high.max(Twofold::new(low).minus(height).value());
+        if end.abs() < side.abs() { end } else { side }
+    }
+
     /// How far a point is outside the cone around the axis whose radius is `radius` at the origin and
     /// shrinks by `taper` per unit of height, with twice the digits; `cosine` is the side's normal's
     /// across the axis.

@@ -4,7 +4,6 @@ use fingertip_wrench::{Line, Real, stored};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::axis::Axis;
-use crate::numeric::twofold::{Twofold, difference};
 use crate::numeric::vectors::wide;
 use crate::shortcuts::entry_near;
 use crate::{
@@ -128,14 +127,10 @@ impl<T: Real> Shortcuts<T> for CappedCylinder<T> {
         self.solid.sole_entry(push)
     }
 
-    /// Outside the side or the nearer end, whichever it is on.
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         let axis = Axis::new(self.centre, self.axis());
         let side = axis.outside_by(point, self.radius());
-        let height = axis.height_of(difference(point, &self.centre));
-        let half = Twofold::new(self.half_length);
-        let end = height.minus(half).value().max(-height.plus(half).value());
-        if end.abs() < side.abs() { end } else { side }
+        axis.outside_side_or_end(point, side, [-self.half_length, self.half_length])
     }
 
     /// As on a frustum.

@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
-use crate::numeric::twofold::{Twofold, difference};
+use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or, wide};
 use crate::shortcuts::entry_near;
 use crate::{
@@ -246,15 +246,10 @@ impl<T: Real> Shortcuts<T> for Frustum<T> {
         Some(self.axis.entered(&local, &self.middle, &self.entry(&local), true))
     }
 
-    /// Outside the side or the nearer end, whichever it is on.
     fn surface_residual(&self, point: &Vector3<T>) -> T {
         let taper = Twofold::difference(self.base_radius, self.top_radius).over(self.height);
         let side = self.axis.outside_cone_by(point, self.base_radius, taper, self.side_cosine);
-        let from_base = difference(point, &self.axis.origin);
-        let height = self.axis.height_of(from_base);
-        let over_top = height.minus(Twofold::new(self.height)).value();
-        let end = over_top.max(-height.value());
-        if end.abs() < side.abs() { end } else { side }
+        self.axis.outside_side_or_end(point, side, [T::zero(), self.height])
     }
 
     /// A line that grazes may leave through an end, or enter by one that is far from where the middle is.

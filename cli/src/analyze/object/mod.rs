@@ -211,12 +211,7 @@ fn touch(
     }
     touched.release();
     bar.finish_and_clear();
-    if let Some(rest) = source.unfinished_rest() {
-        if let Some(end) = window.end() {
-            return Err(CliError::option("--end", end, "must be behind `rest_s` of the scene"));
-        }
-        return Err(CliError::RestTooLong { path: recording.to_owned(), rest, rows: source.rows() });
-    }
+    source.has_rested(&window, recording, source.rows())?;
     notes.extend(source.notes().iter().cloned());
     Ok(())
 }

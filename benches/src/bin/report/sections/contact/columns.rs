@@ -32,10 +32,6 @@ impl<T: Real> Columns<T> {
         Self { touches, force, torque, found, size }
     }
 
-    pub(super) fn wrenches(&self) -> impl Iterator<Item = &Wrench<T>> {
-        self.touches.iter().map(|(_, wrench)| wrench)
-    }
-
     /// The point contacts, and the gap last.
     pub(super) fn point_contacts(&mut self, surface: &impl BatchSurface<T>) {
         self.resolve(|wrenches, [px, py, pz, nx, ny, nz, gap]| {

@@ -22,19 +22,15 @@ use crate::wrenches::Random;
 /// How many shapes of each kind are drawn.
 const SHAPES: u64 = 8;
 
-/// Median times of a contact \[ns\].
-#[derive(Clone, Copy)]
-struct Pace {
-    one_by_one: f64,
-    in_columns: f64,
-}
+/// A shape and touches all over it.
+type Touched<T, S> = (S, Columns<T>);
 
-/// Touches all over a shape, which is drawn in double precision, too, for its places.
+/// The shape is drawn in double precision, too, for its places.
 fn touched<T: Real, S: Drawn, D: Drawn + ActiveSurface<f64>>(
     effort: Effort,
     seed: u64,
     spins: bool,
-) -> (S, Columns<T>) {
+) -> Touched<T, S> {
     let (surface, ..) = S::draw(&mut Random::new(seed), SCALE);
     let mut random = Random::new(seed);
     let (exactly, ..) = D::draw(&mut random, SCALE);
@@ -43,15 +39,35 @@ fn touched<T: Real, S: Drawn, D: Drawn + ActiveSurface<f64>>(
     let touches = (0..effort.choose(10, 120)).map(|_| {
         let (point, normal) = random.place(&exactly, 5.0 * SCALE);
         let force = random.force(&normal, 0.5, 2.0);
-        let spin = if spins { SPIN * 2.0 * size * random.uniform(-1.0, 1.0) } else { 0.0 };
-        let touch = Touch { point, force, normal, spin };
+        let touch = Touch { point, force, normal, spin: SPIN * 2.0 * size * random.uniform(-1.0, 1.0) };
         (touch, touch.wrench(spins, 0.0, size, &mut random.0))
     });
     (surface, Columns::new(touches.collect(), size))
 }
 
+/// Median times of a contact \[ns\]: one by one, and in columns.
+fn pace<T: Real, S, M: ContactModel<T, S>>(
+    effort: Effort,
+    model: &M,
+    touched: &mut [Touched<T, S>],
+    in_columns: impl Fn(&mut Columns<T>, &S),
+) -> [f64; 2] {
+    let items = touched.iter().map(|(_, columns)| columns.touches.len()).sum();
+    let one_by_one = time(effort, items, || {
+        for (surface, columns) in &*touched {
+            for (_, wrench) in &columns.touches {
+                black_box(&model.resolve(black_box(wrench), surface));
+            }
+        }
+    });
+    let in_columns = time(effort, items, || {
+        touched.iter_mut().for_each(|(surface, columns)| in_columns(columns, surface));
+    });
+    [one_by_one, in_columns].map(|timed| timed.median)
+}
+
 /// Of a point contact, and of a soft finger with spin.
-fn paces<T, S, D>(effort: Effort) -> Result<[Pace; 2], Failure>
+fn paces<T, S, D>(effort: Effort) -> Result<[[f64; 2]; 2], Failure>
 where
     T: Real,
     S: Drawn + BatchSurface<T> + SoftFingerSurface<T>,
@@ -60,31 +76,10 @@ where
     let (point, soft) = (PointContact::new(T::zero())?, SoftFinger::new(T::zero())?);
     let [mut without_spin, mut with_spin] = [false, true]
         .map(|spins| (0..SHAPES).map(|seed| touched::<T, S, D>(effort, seed, spins)).collect::<Vec<_>>());
-    let items = without_spin.iter().map(|(_, columns)| columns.touches.len()).sum();
-    let all = |with: &[(S, Columns<T>)], resolve: &dyn Fn(&S, &Columns<T>)| {
-        time(effort, items, || with.iter().for_each(|(surface, columns)| resolve(surface, columns))).median
-    };
-    let one_by_one = [
-        all(&without_spin, &|surface, columns| {
-            columns.wrenches().for_each(|wrench| {
-                black_box(&point.resolve(black_box(wrench), surface));
-            });
-        }),
-        all(&with_spin, &|surface, columns| {
-            columns.wrenches().for_each(|wrench| {
-                black_box(&soft.resolve(black_box(wrench), surface));
-            });
-        }),
-    ];
-    let in_columns = [
-        time(effort, items, || {
-            without_spin.iter_mut().for_each(|(surface, columns)| columns.point_contacts(surface));
-        }),
-        time(effort, items, || {
-            with_spin.iter_mut().for_each(|(surface, columns)| columns.soft_contacts(&soft, surface));
-        }),
-    ];
-    Ok([0, 1].map(|k| Pace { one_by_one: one_by_one[k], in_columns: in_columns[k].median }))
+    Ok([
+        pace(effort, &point, &mut without_spin, |columns, surface| columns.point_contacts(surface)),
+        pace(effort, &soft, &mut with_spin, |columns, surface| columns.soft_contacts(&soft, surface)),
+    ])
 }
 
 /// A row for each convex closed form.
@@ -109,9 +104,8 @@ pub(super) fn in_columns(effort: Effort) -> Result<Table, Failure> {
             $(
                 let [point, soft] = paces::<f32, $shape<f32>, $shape<f64>>(effort)?;
                 let [wide_point, wide_soft] = paces::<f64, $shape<f64>, $shape<f64>>(effort)?;
-                let cells = [point, wide_point, soft, wide_soft].map(|pace| {
-                    [pace.one_by_one, pace.in_columns, pace.one_by_one / pace.in_columns].map(shown)
-                });
+                let cells = [point, wide_point, soft, wide_soft]
+                    .map(|[one_by_one, in_columns]| [one_by_one, in_columns, one_by_one / in_columns].map(shown));
                 table.row([$name.to_owned()].into_iter().chain(cells.into_iter().flatten()));
             )*
         };
