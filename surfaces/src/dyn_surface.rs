@@ -9,8 +9,8 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use crate::{
     ActiveSurface, CappedCylinder, Capsule, ClosestApproach, Compound, Cone, Corner, Crossing, Cylinder,
     Disk, Ellipsoid, EllipticCylinder, Entry, Extent, ForceLine, Formula, Frustum, HalfSpace, Heightfield,
-    Implicit, Knot, Level, Mesh, Paraboloid, Plane, Posed, Rectangle, Revolution, RoundedBox, Shortcuts,
-    SmoothSurface, Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
+    Implicit, Knot, Level, LineInDouble, Mesh, Paraboloid, Plane, Posed, Rectangle, Revolution, RoundedBox,
+    Shortcuts, SmoothSurface, Sphere, SphericalCap, Superquadric, Topology, Torus, Trimmed,
 };
 
 /// Any of the shapes: for files and programs that learn the shape at run time. On a hot path use
@@ -184,11 +184,11 @@ impl<T: Real> Shortcuts<T> for DynSurface<T> {
         each_surface!(self, shape => shape.shortcuts().surface_residual(point))
     }
 
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         each_surface!(self, shape => shape.shortcuts().entry_in_double(line, near))
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         each_surface!(self, shape => shape.shortcuts().posed_entry_in_double(line, near))
     }
 

@@ -42,7 +42,7 @@ pub use mesh::{Mesh, MeshError};
 pub use shapes::*;
 #[doc(hidden)]
 pub use shortcuts::is_closed_convex;
-pub use shortcuts::{NoShortcuts, Shortcuts};
+pub use shortcuts::{LineInDouble, NoShortcuts, Shortcuts};
 pub use signed_distance::{Distance, SignedDistance};
 pub use smooth::{
     Corner, Extent, Level, SmoothSurface, Topology, hessian_by_differences, shape_operator_by_differences,

@@ -4,7 +4,7 @@ use fingertip_wrench::{Line, Real, RigidTransform};
 use nalgebra::Vector3;
 
 use crate::numeric::fine_pose::FinePose;
-use crate::{ActiveSurface, Entry, ForceLine};
+use crate::{ActiveSurface, Crossing, Entry, ForceLine};
 
 /// What a shape knows sooner, or to more digits, than its crossings tell. Point contact asks here first.
 ///
@@ -88,13 +88,13 @@ pub trait Shortcuts<T: Real>: Sized {
         T::zero()
     }
 
-    /// Where a line enters near a point, in double precision: the point and the outward unit normal.
+    /// Where a line enters near a point, in double precision.
     ///
     /// Point contact asks for it in a narrower type, where a force meets the surface at a flat angle, and moves the
     /// crossing by rounding alone if there is no answer. `None`, as the default answers, suits all shapes whose normal
     /// the digits of a point tell; it is for those that are bent sharply one way.
     #[inline(always)]
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         let _ = (line, near);
         None
     }
@@ -102,7 +102,7 @@ pub trait Shortcuts<T: Real>: Sized {
     /// The same, of a shape that a pose puts in place: its rounding in a narrower type is none that a residual undoes.
     /// The default is [`entry_in_double`](Self::entry_in_double).
     #[inline(always)]
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         self.entry_in_double(line, near)
     }
 
@@ -156,12 +156,12 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for &S {
     }
 
     #[inline(always)]
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         (**self).entry_in_double(line, near)
     }
 
     #[inline(always)]
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         (**self).posed_entry_in_double(line, near)
     }
 }
@@ -190,12 +190,12 @@ impl<T: Real, S: Shortcuts<T>, F: Fn(&Entry<T>) -> bool> Shortcuts<T> for Within
     }
 
     #[inline(always)]
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         self.whole.entry_in_double(line, near)
     }
 
     #[inline(always)]
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         self.whole.posed_entry_in_double(line, near)
     }
 }
@@ -227,30 +227,62 @@ impl<T: Real, S: Shortcuts<T>> Shortcuts<T> for Moved<'_, T, S> {
         self.inner.surface_residual(&self.pose.rotation().tr_mul(&(point - self.pose.origin())))
     }
 
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         let pose = FinePose::new(self.pose);
-        let [point, normal] =
-            self.inner.posed_entry_in_double(&pose.line_inside(line), &pose.point_inside(near))?;
-        Some([pose.point_outside(&point), pose.normal_outside(&normal).0])
+        Some(match self.inner.posed_entry_in_double(&pose.line_inside(line), &pose.point_inside(near))? {
+            LineInDouble::Enters { point, normal } => LineInDouble::Enters {
+                point: pose.point_outside(&point),
+                normal: pose.normal_outside(&normal).0,
+            },
+            LineInDouble::Misses => LineInDouble::Misses,
+        })
     }
 }
 
-/// Of the places where a line enters a shape the one nearest to a point: the point and the outward unit normal.
+/// What double precision says of a line: [`Shortcuts::entry_in_double`].
+///
+/// ```
+/// use fingertip_surfaces::{ActiveSurface, Cone, LineInDouble, Shortcuts};
+/// use fingertip_wrench::Line;
+/// use nalgebra::Vector3;
+///
+/// let cone = Cone::<f32>::new(Vector3::zeros(), Vector3::z(), 0.5)?;
+/// let along = |y: f64| Line { point: Vector3::new(0.0, y, 0.01), direction: Vector3::x() };
+/// let ask = |line| cone.shortcuts().entry_in_double(&line, &Vector3::new(-0.005, 0.0, 0.01));
+/// assert!(matches!(ask(along(0.0)), Some(LineInDouble::Enters { normal, .. }) if normal.x < -0.8));
+/// assert_eq!(ask(along(0.006)), Some(LineInDouble::Misses));
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LineInDouble {
+    /// It enters there.
+    Enters {
+        /// On the surface \[m\].
+        point: Vector3<f64>,
+        /// The outward unit normal.
+        normal: Vector3<f64>,
+    },
+    /// It does not, whatever rounding in a narrower type has made of it.
+    Misses,
+}
+
+/// Of the places where a line enters a shape the one nearest to a point.
 #[cold]
 pub(crate) fn entry_near(
     shape: &impl ActiveSurface<f64>,
     line: &Line<f64>,
     near: &Vector3<f64>,
-) -> Option<[Vector3<f64>; 2]> {
-    let mut best: Option<(f64, [Vector3<f64>; 2])> = None;
+) -> Option<LineInDouble> {
+    let mut best: Option<(f64, Crossing<f64>)> = None;
     shape.crossings(line, |crossing| {
         let away = (crossing.point - near).norm_squared();
         let enters = crossing.active && crossing.normal.dot(&line.direction) < 0.0;
         if enters && best.is_none_or(|(least, _)| away < least) {
-            best = Some((away, [crossing.point, crossing.normal]));
+            best = Some((away, crossing));
         }
     });
-    best.map(|(_, entry)| entry).filter(|[point, normal]| (point.sum() + normal.sum()).is_number())
+    let Some((_, Crossing { point, normal, .. })) = best else { return Some(LineInDouble::Misses) };
+    (point.sum() + normal.sum()).is_number().then_some(LineInDouble::Enters { point, normal })
 }
 
 /// [`Shortcuts::CLOSED_CONVEX`] of the shortcuts of a surface, whose type has no name.

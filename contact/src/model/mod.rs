@@ -16,4 +16,4 @@ pub(crate) use long_way::long_way;
 pub(crate) use onto_line::{normal_at, outside_by, torque_left};
 pub use outcome::{Contact, NoContact, Resolution};
 pub use point_contact::PointContact;
-pub(crate) use point_contact::flat;
+pub(crate) use point_contact::{flat, flat_when_moved};

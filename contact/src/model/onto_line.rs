@@ -3,7 +3,7 @@
 use fingertip_surfaces::numeric::mixed_precision::{is_asked_again, is_refined_in_double};
 use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::numeric::vectors::{larger, largest, wide};
-use fingertip_surfaces::{ActiveSurface, Shortcuts};
+use fingertip_surfaces::{ActiveSurface, LineInDouble, Shortcuts};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
@@ -65,8 +65,12 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
     (point, normal): (Vector3<T>, Vector3<T>),
     incidence: T,
 ) -> (Vector3<T>, Vector3<T>) {
-    by_more_digits(wrench, surface, &point, incidence)
-        .unwrap_or_else(|| mended(&scaled(wrench), surface, (point, normal), incidence))
+    match by_more_digits(wrench, surface, &point, incidence) {
+        MoreDigits::Enters(point, normal) => (point, normal),
+        // A tangent but for rounding, which the place that it was given bears out.
+        MoreDigits::Misses => (point, normal),
+        MoreDigits::Unknown => mended(&scaled(wrench), surface, (point, normal), incidence),
+    }
 }
 
 /// Force and torque times a factor that makes the force 1 or more.
@@ -157,6 +161,16 @@ fn through_chord<T: Real, S: ActiveSurface<T>>(
     enters.then(|| mended(load, surface, (point, normal), incidence))
 }
 
+/// What more digits than those of the type say of the line of action.
+pub(super) enum MoreDigits<T: Real> {
+    /// It enters at this point, where this is the normal.
+    Enters(Vector3<T>, Vector3<T>),
+    /// It does not.
+    Misses,
+    /// Nothing.
+    Unknown,
+}
+
 /// Where the line of action enters near a point, in double precision for a type that is narrower, if the surface knows:
 /// that the steps above end where they should, digits of a normal must follow from those of its point.
 #[inline(always)]
@@ -164,16 +178,21 @@ fn in_double<T: Real, S: ActiveSurface<T>>(
     wrench: &Wrench<T>,
     surface: &S,
     near: &Vector3<T>,
-) -> Option<(Vector3<T>, Vector3<T>)> {
+) -> MoreDigits<T> {
     if !is_asked_again::<T>() {
-        return None;
+        return MoreDigits::Unknown;
     }
     // In range: the squares of all numbers of a narrower type are.
     let (f, m) = (wide(&wrench.force()), wide(&wrench.torque()));
     let squared = f.norm_squared();
     let line = Line { point: f.cross(&m) / squared, direction: f / squared.root() };
-    let [point, normal] = surface.shortcuts().entry_in_double(&line, &wide(near))?;
-    (normal.dot(&f) < 0.0).then(|| (point.map(T::literal), normal.map(T::literal)))
+    match surface.shortcuts().entry_in_double(&line, &wide(near)) {
+        Some(LineInDouble::Enters { point, normal }) if normal.dot(&f) < 0.0 => {
+            MoreDigits::Enters(point.map(T::literal), normal.map(T::literal))
+        }
+        Some(LineInDouble::Misses) => MoreDigits::Misses,
+        _ => MoreDigits::Unknown,
+    }
 }
 
 /// Where the line of action enters near a point, in double precision where that is told; if not, by the chord where the
@@ -184,13 +203,14 @@ pub(super) fn by_more_digits<T: Real, S: ActiveSurface<T>>(
     surface: &S,
     near: &Vector3<T>,
     incidence: T,
-) -> Option<(Vector3<T>, Vector3<T>)> {
-    let found = in_double(wrench, surface, near);
+) -> MoreDigits<T> {
+    let told = in_double(wrench, surface, near);
     let grazes = incidence * incidence < T::literal(1024.0) * T::EPSILON;
-    if found.is_some() || !grazes || !is_refined_in_double::<T>() {
-        return found;
+    if !matches!(told, MoreDigits::Unknown) || !grazes || !is_refined_in_double::<T>() {
+        return told;
     }
     through_chord(&scaled(wrench), surface, near)
+        .map_or(MoreDigits::Unknown, |(point, normal)| MoreDigits::Enters(point, normal))
 }
 
 /// Kept out of line, as it is asked often for few samples.

@@ -11,7 +11,7 @@ use fingertip_wrench::{
 use nalgebra::Vector3;
 
 use super::long_way::long_way;
-use super::onto_line::{Place, by_more_digits, entered};
+use super::onto_line::{MoreDigits, Place, by_more_digits, entered};
 use super::seen::{Seen, too_flat};
 use super::{Contact, ContactModel, NoContact, Resolution};
 
@@ -61,10 +61,16 @@ pub(crate) fn flat<T: Real>() -> T {
     T::literal(0.3)
 }
 
-/// The same on a surface: higher in a narrower type where a pose has moved the shape, which rounds the line once more.
+/// The same in a narrower type where a pose has moved the shape, which rounds force and torque once more.
+#[inline]
+pub(crate) fn flat_when_moved<T: Real>() -> T {
+    T::literal(0.6)
+}
+
+/// The one or the other, as the surface is.
 #[inline(always)]
 pub(super) fn flat_on<T: Real>(shortcuts: &impl Shortcuts<T>) -> T {
-    if is_asked_again::<T>() && shortcuts.is_moved() { T::literal(0.6) } else { flat() }
+    if is_asked_again::<T>() && shortcuts.is_moved() { flat_when_moved() } else { flat() }
 }
 
 impl<T: Real> PointContact<T> {
@@ -375,7 +381,7 @@ impl<T: Real> PointContact<T> {
         let hair = T::EPSILON * T::literal(64.0) * largest(&point);
         if active
             && gap <= hair
-            && let Some((point, normal)) = by_more_digits(wrench, surface, &point, T::zero())
+            && let MoreDigits::Enters(point, normal) = by_more_digits(wrench, surface, &point, T::zero())
             && -line.direction.dot(&normal) >= self.least_incidence
         {
             return Ok(Place::at(point, normal));

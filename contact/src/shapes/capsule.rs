@@ -2,7 +2,7 @@
 
 use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_surfaces::{ActiveSurface, Capsule, ForceLine, LocalSurface, SmoothSurface, Sphere};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
 use super::cylinder::{on_round_side, steeply_on_round_side};
@@ -14,6 +14,7 @@ use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, scale
 use crate::soft_finger::closed_form::{soft_finger, sole, steady_levers, told};
 use crate::soft_finger::double;
 use crate::soft_finger::double::{finely, spins_little};
+use crate::soft_finger::edge::surely_on_side;
 use crate::soft_finger::refined::refined;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
@@ -59,7 +60,7 @@ fn on_end<T: Real>(
     // A convex surface has one contact at most; a point of the seam belongs to the side.
     let ball = Sphere::new(shape.centre() + end * shape.half_length(), shape.radius())
         .map_err(|_| Search::Complete)?;
-    match on_sphere(&ball, wrench) {
+    match on_sphere(&ball, wrench, T::EPSILON) {
         Ok(contact) if contact.normal.dot(end) >= T::zero() => Ok(contact),
         Err(pair) if pair.iter().all(|point| (point - ball.centre()).dot(end) >= T::zero()) => {
             Err(Search::Grazing(pair))
@@ -74,6 +75,25 @@ fn on_capsule_finely<T: Real>(shape: &Capsule<T>, wrench: &Wrench<T>) -> Result<
     finely(on_capsule(shape, wrench), spins_little(wrench, shape.radius()), wrench, |wrench| {
         capsule_in_double(shape, wrench)
     })
+}
+
+/// The same where rounding of a wrench that a pose has moved takes the contact past the side's end.
+fn surely<T: Real>(
+    shape: &Capsule<T>,
+    wrench: &Wrench<T>,
+    pose: Option<&RigidTransform<T>>,
+    found: Result<SoftContact<T>, Search<T>>,
+) -> Result<SoftContact<T>, Search<T>> {
+    let above = |point: &Vector3<T>| (point - shape.centre()).dot(&shape.axis()).abs() - shape.half_length();
+    let hair = (shape.half_length() + shape.radius()) * T::literal(1e-6);
+    let (on_end, on_side) =
+        (|point: &Vector3<T>| above(point) >= -hair, |point: &Vector3<T>| above(point) <= T::zero());
+    surely_on_side(wrench, pose, side(shape), on_end, on_side, found)
+}
+
+fn side<T: Real>(shape: &Capsule<T>) -> LocalSurface {
+    let (origin, axis) = (wide(&shape.centre()), wide(&shape.axis()));
+    LocalSurface::Cone { origin, axis, radius: shape.radius().to_f64(), taper: [0.0, 0.0, 1.0] }
 }
 
 fn capsule_in_double<T: Real>(
@@ -115,15 +135,19 @@ soft_finger!(
     push | steeply_on_capsule(shape, push),
     double | shape,
     wrench | capsule_in_double(shape, wrench),
+    surely | shape,
+    wrench,
+    pose,
+    found | surely(shape, wrench, pose, found),
     patch | shape,
     point | {
-        let (origin, axis) = (wide(&shape.centre()), wide(&shape.axis()));
         let (height, half) = ((point - shape.centre()).dot(&shape.axis()), shape.half_length());
-        let radius = shape.radius().to_f64();
         Some(if height.abs() <= half {
-            LocalSurface::Cone { origin, axis, radius, taper: [0.0, 0.0, 1.0] }
+            side(shape)
         } else {
-            LocalSurface::Ball { origin, axis, height: half.copysign(height).to_f64(), radius }
+            let (origin, axis) = (wide(&shape.centre()), wide(&shape.axis()));
+            let (height, radius) = (half.copysign(height).to_f64(), shape.radius().to_f64());
+            LocalSurface::Ball { origin, axis, height, radius }
         })
     },
     sizes | shape, size, point | of_capsule(shape, point).get(size).copied()

@@ -10,13 +10,11 @@ use fingertip_surfaces::{
 use fingertip_wrench::{Line, Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
+use crate::model::flat_when_moved;
 use crate::soft_finger::closed_form::is_pure_force;
 use crate::soft_finger::double::{in_type, narrow, widened};
-use crate::soft_finger::placed::placed;
+use crate::soft_finger::placed::{placed, widely};
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
-
-/// The square of the least cosine of incidence at which a posed shape in a narrower type takes the short way.
-const STEEPER: f64 = 0.13;
 
 /// The contacts of a posed shape by those of the shape, under the wrench in its frame.
 fn moved<T: Real, S: SoftFingerSurface<T>>(
@@ -86,7 +84,9 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         let found = self.inner().sole_soft_contact(&push.seen_from(pose))?;
         let normal = pose.rotate(&found.normal);
         let pressing = push.force().dot(&normal);
-        if is_asked_again::<T>() && !(pressing * pressing >= T::literal(STEEPER) * push.squared()) {
+        if is_asked_again::<T>()
+            && !(pressing * pressing >= flat_when_moved::<T>().whole_power(2) * push.squared())
+        {
             return None;
         }
         Some(SoftContact { point: pose.transform_point(&found.point), normal, ..found })
@@ -95,8 +95,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     /// Of the shape under the wrench that has the contact there (`docs/theory/contact.md#shapes-in-a-pose`).
     fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
         let pose = FinePose::new(self.sensor_from_shape());
-        let found = self.inner().soft_contact_in_double(&pose.wrench_inside(wrench))?;
-        Some(match found {
+        let found = match self.inner().soft_contact_in_double(&pose.wrench_inside(wrench))? {
             Ok(SoftContact { point, normal, spin_torque, active }) => {
                 let (normal, share) = pose.normal_outside(&normal);
                 let point = pose.point_outside(&point);
@@ -104,7 +103,10 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
             }
             Err(Search::Grazing(pair)) => Err(Search::Grazing(pair.map(|point| pose.point_outside(&point)))),
             Err(ended) => Err(ended),
-        })
+        };
+        // The wrench has been rounded on its way into the frame of the shape.
+        let pose = widely(self.sensor_from_shape());
+        Some(self.inner().with_more_digits_in_double(wrench, Some(&pose), found))
     }
 
     /// That of the shape, in its place. A pose of a pose has none.
@@ -174,6 +176,19 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
         let again = self.inner().with_more_digits(wrench, pose, found);
         again.map(|contact| {
             let place = pose.map_or(contact.point, |pose| point_inside(pose, &contact.point));
+            SoftContact { active: contact.active && self.region().includes(&place), ..contact }
+        })
+    }
+
+    fn with_more_digits_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: Option<&RigidTransform<f64>>,
+        found: Result<SoftContact<f64>, Search<f64>>,
+    ) -> Result<SoftContact<f64>, Search<f64>> {
+        let again = self.inner().with_more_digits_in_double(wrench, pose, found);
+        again.map(|contact| {
+            let place = pose.map_or(contact.point, |pose| point_inside(pose, &contact.point)).map(T::literal);
             SoftContact { active: contact.active && self.region().includes(&place), ..contact }
         })
     }

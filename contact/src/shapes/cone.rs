@@ -75,7 +75,7 @@ fn cone_in_double<T: Real>(
     wrench: &Wrench<f64>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
     let double = cone.in_double()?;
-    Some(on_side_or_tip(&double, wrench).map(|contact| if_active(&double, None, contact)))
+    Some(surely(&double, wrench, None, on_side_or_tip(&double, wrench)))
 }
 
 fn side_of_cone<T: Real>(cone: &Cone<T>) -> LocalSurface {

@@ -39,6 +39,15 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.with_more_digits(wrench, pose, found))
     }
 
+    fn with_more_digits_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: Option<&RigidTransform<f64>>,
+        found: Result<SoftContact<f64>, Search<f64>>,
+    ) -> Result<SoftContact<f64>, Search<f64>> {
+        each_surface!(self, shape => shape.with_more_digits_in_double(wrench, pose, found))
+    }
+
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {
         each_surface!(self, shape => shape.sensitivity(size, point))
     }

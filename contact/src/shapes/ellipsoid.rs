@@ -12,7 +12,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
 use crate::soft_finger::closed_form::{soft_finger, told};
-use crate::soft_finger::double::unless_grazing;
+use crate::soft_finger::double::unless_flat;
 use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{Search, SoftContact};
 
@@ -48,7 +48,7 @@ pub(super) fn on_ellipsoid<T: Real>(
         let (f, m) = (f * scale, m * scale);
         // As on the sphere: what is exactly zero before stretching shall be so after it.
         let power = force.dot(&torque) * (b.x * b.y * b.z);
-        OnUnitSphere::new(&f, &m, f.norm_squared(), power).unless_grazing(&f, &m)
+        OnUnitSphere::new(&f, &m, f.norm_squared(), power).unless_grazing(&f, &m, T::EPSILON)
     };
     let solved = solved.map_err(|pair| pair.map(|point| point.component_mul(&semi_axes)))?;
     let point = solved.point();
@@ -116,9 +116,9 @@ soft_finger!(
     push | steeply_on_ellipsoid(shape, push),
     double | shape,
     wrench
-        | shape
-            .in_double()
-            .and_then(|double| unless_grazing::<T>(wrench, on_ellipsoid(&double, wrench, false))),
+        | shape.in_double().and_then(|double| {
+            unless_flat::<T>(wrench, on_ellipsoid(&double, wrench, false).map_err(Search::Grazing))
+        }),
     // The three semi-axes.
     sizes | shape,
     size,

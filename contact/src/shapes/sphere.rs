@@ -12,20 +12,21 @@ use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, pick, scale, split};
 use crate::soft_finger::closed_form::{part_of, soft_finger, told};
-use crate::soft_finger::double::unless_grazing;
 use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact on a sphere.
 ///
 /// `f·m` is that of the wrench as it is given, about the sensor's origin: the same about any point,
-/// but for the rounding that moving a torque takes. So a pure force stays one.
+/// but for the rounding that moving a torque takes. So a pure force stays one. `epsilon` is that of the type in which
+/// the wrench was told.
 ///
 /// # Errors
 /// The pair of points that a pure force which misses would graze.
 pub(super) fn on_sphere<T: Real>(
     sphere: &Sphere<T>,
     wrench: &Wrench<T>,
+    epsilon: T,
 ) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
     let (centre, radius, curvature) = (sphere.centre(), sphere.radius(), sphere.curvature());
     let lever = wrench.torque_about(&centre) * curvature;
@@ -33,7 +34,7 @@ pub(super) fn on_sphere<T: Real>(
     let (f, m) = (wrench.force() * scale, lever * scale);
     let power = f.dot(&(wrench.torque() * scale)) * curvature;
     let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power)
-        .unless_grazing(&f, &m)
+        .unless_grazing(&f, &m, epsilon)
         .map_err(|pair| pair.map(|point| point * radius + centre))?;
     let normal = solved.point();
     Ok(SoftContact {
@@ -71,11 +72,14 @@ pub(super) fn steeply_on_ball<T: Real>(
 
 soft_finger!(
     Sphere,
-    |shape, wrench, _, visit| told(on_sphere(shape, wrench).map_err(Search::Grazing), visit),
+    |shape, wrench, _, visit| told(on_sphere(shape, wrench, T::EPSILON).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_sphere(shape, push),
     double | shape,
-    wrench | shape.in_double().and_then(|double| unless_grazing::<T>(wrench, on_sphere(&double, wrench))),
+    wrench
+        | shape
+            .in_double()
+            .map(|double| on_sphere(&double, wrench, T::EPSILON.to_f64()).map_err(Search::Grazing)),
     sizes | _,
     size,
     _ | (size == 0).then(GeometrySensitivity::offset)

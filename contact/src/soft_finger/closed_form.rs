@@ -72,6 +72,18 @@ macro_rules! soft_finger {
             ) -> Result<$crate::SoftContact<T>, $crate::Search<T>> {
                 let $sure = self;
                 $surely
+            }
+
+            fn with_more_digits_in_double(
+                &self,
+                wrench: &fingertip_wrench::Wrench<f64>,
+                pose: Option<&fingertip_wrench::RigidTransform<f64>>,
+                found: Result<$crate::SoftContact<f64>, $crate::Search<f64>>,
+            ) -> Result<$crate::SoftContact<f64>, $crate::Search<f64>> {
+                match self.in_double() {
+                    Some(double) => double.with_more_digits(wrench, pose, found),
+                    None => found,
+                }
             })?
 
             $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<$crate::Patch> {

@@ -84,7 +84,7 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
 /// start that is good where the spin torque rules, and exact on a sphere.
 pub(crate) fn direction_on_ball<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> Vector3<T> {
     let solved = OnUnitSphere::new(force, torque, force.norm_squared(), force.dot(torque));
-    solved.grazing(force, torque).map_or_else(|| solved.point(), |[point, _]| point)
+    solved.grazing(force, torque, T::EPSILON).map_or_else(|| solved.point(), |[point, _]| point)
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{length, wide};
 use fingertip_wrench::{Real, Wrench};
-use nalgebra::Vector3;
 
 use super::closed_form::is_steady_under;
 use crate::{Search, SoftContact};
@@ -44,16 +43,8 @@ pub(crate) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftC
     move |contact| is_steady_under(&force, strength, contact, lever)
 }
 
-/// The contact of a closed form on a sphere or an ellipsoid, for a narrower type: `None` if the force presses by no more than
-/// rounding of the wrench's numbers there, which then says between which two points nothing tells.
-pub(crate) fn unless_grazing<T: Real>(
-    wrench: &Wrench<f64>,
-    found: Result<SoftContact<f64>, [Vector3<f64>; 2]>,
-) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    unless_flat::<T>(wrench, found.map_err(Search::Grazing))
-}
-
-/// The same of a search.
+/// What was found in double precision, for a narrower type: `None` if the force presses by no more than rounding of the
+/// wrench's numbers there, which then says whether it does.
 pub(crate) fn unless_flat<T: Real>(
     wrench: &Wrench<f64>,
     found: Result<SoftContact<f64>, Search<f64>>,

@@ -65,9 +65,13 @@ pub(crate) fn placed<T: Real>(patch: Patch, pose: Option<&RigidTransform<T>>) ->
     let Some(pose) = pose else { return Some(patch) };
     // Of a pose of a pose nothing is told.
     let Patch { surface, pose: None } = patch else { return None };
+    Some(Patch { surface, pose: Some(widely(pose)) })
+}
+
+/// The same pose, of numbers in double precision: not more of a rotation than before.
+pub(crate) fn widely<T: Real>(pose: &RigidTransform<T>) -> RigidTransform<f64> {
     let rotation = Rotation3::from_matrix_unchecked(pose.rotation().map(Real::to_f64));
-    let placed = RigidTransform::from_parts(rotation, wide(&pose.origin()));
-    Some(Patch { surface, pose: Some(placed) })
+    RigidTransform::from_parts(rotation, wide(&pose.origin()))
 }
 
 impl Patch {

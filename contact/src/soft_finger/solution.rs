@@ -172,6 +172,19 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         found
     }
 
+    /// The same of what was found in double precision, for a narrower type.
+    #[doc(hidden)]
+    #[inline]
+    fn with_more_digits_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: Option<&RigidTransform<f64>>,
+        found: Result<SoftContact<f64>, Search<f64>>,
+    ) -> Result<SoftContact<f64>, Search<f64>> {
+        let _ = (wrench, pose);
+        found
+    }
+
     /// How the surface changes at one of its points, per unit of the shape's size of this number: its radii,
     /// semi-axes and lengths, counted from 0 in the order of its constructor. `None`, as the default answers, if
     /// there is no such size. (Moving and turning need no such knowledge:
@@ -234,6 +247,16 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
         found: Result<SoftContact<T>, Search<T>>,
     ) -> Result<SoftContact<T>, Search<T>> {
         (**self).with_more_digits(wrench, pose, found)
+    }
+
+    #[inline]
+    fn with_more_digits_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: Option<&RigidTransform<f64>>,
+        found: Result<SoftContact<f64>, Search<f64>>,
+    ) -> Result<SoftContact<f64>, Search<f64>> {
+        (**self).with_more_digits_in_double(wrench, pose, found)
     }
 
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {

@@ -64,7 +64,7 @@ impl<T: Real> OnUnitSphere<T> {
         let (f, m) = (Vector3::from(f.map(Twofold::value)), Vector3::from(m.map(Twofold::value)));
         let squares = [force.value(), torque.value()];
         let solved = Self::with_difference(&f, &m, squares, torque.minus(force).value(), power.value());
-        solved.unless_grazing(&f, &m)
+        solved.unless_grazing(&f, &m, T::EPSILON)
     }
 
     /// With `|f|²` and `|m|²`, and `σ` apart from them.
@@ -107,19 +107,24 @@ impl<T: Real> OnUnitSphere<T> {
     ///
     /// The sign of `f·m` tells one point of the pair from the other. Half a unit in the last place of
     /// every component of the wrench changes `f·m` by up to `ε|f||m|`, and the sum of its products
-    /// rounds about as much: below four times `ε` the cosine of incidence `|h|/|f|` is zero for all
-    /// that the numbers say.
+    /// rounds about as much: below four times `ε`, that of the type in which the wrench was told, the cosine of incidence
+    /// `|h|/|f|` is zero for all that the numbers say.
     #[inline(always)]
-    pub(crate) fn grazing(&self, f: &Vector3<T>, m: &Vector3<T>) -> Option<[Vector3<T>; 2]> {
-        let least = (T::EPSILON * T::literal(4.0)).whole_power(2) * self.force;
+    pub(crate) fn grazing(&self, f: &Vector3<T>, m: &Vector3<T>, epsilon: T) -> Option<[Vector3<T>; 2]> {
+        let least = (epsilon * T::literal(4.0)).whole_power(2) * self.force;
         (self.misses && !(self.along * self.along > least)).then(|| self.pair(f, m))
     }
 
     /// # Errors
     /// [`grazing`](Self::grazing).
     #[inline(always)]
-    pub(crate) fn unless_grazing(self, f: &Vector3<T>, m: &Vector3<T>) -> Result<Self, [Vector3<T>; 2]> {
-        self.grazing(f, m).map_or(Ok(self), Err)
+    pub(crate) fn unless_grazing(
+        self,
+        f: &Vector3<T>,
+        m: &Vector3<T>,
+        epsilon: T,
+    ) -> Result<Self, [Vector3<T>; 2]> {
+        self.grazing(f, m, epsilon).map_or(Ok(self), Err)
     }
 
     #[cold]

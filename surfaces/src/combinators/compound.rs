@@ -5,7 +5,9 @@ use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::active_surface::nearest_crossing;
-use crate::{ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, Shortcuts, SmoothSurface};
+use crate::{
+    ActiveSurface, ClosestApproach, Corner, Crossing, Extent, Level, LineInDouble, Shortcuts, SmoothSurface,
+};
 
 /// Two shapes, possibly overlapping, as one: what lies inside the other is no surface. Nest it for
 /// more than two, halves of halves rather than one after the other: each level of nesting multiplies the work.
@@ -157,7 +159,7 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> Shortcuts<T> for Compoun
         }
     }
 
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         if self.is_of_first(&near.map(T::literal), None) {
             self.first.shortcuts().entry_in_double(line, near)
         } else {
@@ -165,7 +167,7 @@ impl<T: Real, A: ActiveSurface<T>, B: ActiveSurface<T>> Shortcuts<T> for Compoun
         }
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         if self.is_of_first(&near.map(T::literal), None) {
             self.first.shortcuts().posed_entry_in_double(line, near)
         } else {

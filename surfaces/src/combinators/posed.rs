@@ -6,8 +6,8 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use crate::numeric::moved::{direction_inside, direction_outside, point_inside, point_outside};
 use crate::numeric::twofold::{Twofold, difference, dot_with};
 use crate::{
-    ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
-    SignedDistance, SmoothSurface, Topology,
+    ActiveSurface, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
+    LineInDouble, Shortcuts, SignedDistance, SmoothSurface, Topology,
 };
 
 /// A shape somewhere else in the sensor frame, turned.
@@ -166,7 +166,7 @@ impl<T: Real, S: ActiveSurface<T>, M: Shortcuts<T>> Shortcuts<T> for InPlace<'_,
         residual + self.posed.normal_inside(&inside).dot(&left)
     }
 
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         self.moved.entry_in_double(line, near)
     }
 

@@ -72,9 +72,9 @@ impl<T: Real> Local<T> {
     /// shall look.
     ///
     /// `F(t) = |across + t·drift|² − (radius − t·shrink)² = a·t² + 2·b·t + c` is a quadratic, whose root
-    /// with a falling value is wanted. Its discriminant times `|drift|²` is
-    /// `(radius·|drift|² + shrink·across·drift)² − a·aside²`, which needs no difference of large numbers,
-    /// not even where the line is parallel to the axis.
+    /// with a falling value is wanted. Its discriminant is `|radius·drift + shrink·across|² − aside²`, and times `|drift|²`
+    /// it is `(radius·|drift|² + shrink·across·drift)² − a·aside²`. The one needs no difference of large numbers where the
+    /// line is all but parallel to the axis, the other nowhere else.
     #[inline(always)]
     pub(super) fn enters_cone(&self, radius: T, shrink: T) -> [T; 2] {
         let (squared, meets) = (self.squared, self.meets);
@@ -83,11 +83,10 @@ impl<T: Real> Local<T> {
         let b = meets + radius * shrink;
         let c = distance_squared - radius * radius;
         let lean = radius * squared + shrink * meets;
-        // A direction is a unit vector up to rounding: what a parallel one has across is noise.
-        let is_parallel = squared <= T::EPSILON * T::EPSILON * T::literal(16.0);
         let apart = lean * lean - a * (self.aside * self.aside);
-        let parallel = shrink * shrink * distance_squared;
-        let root = select_unpredictable(is_parallel, parallel, apart / squared).root();
+        let beside = (self.drift * radius + self.across * shrink).norm_squared() - self.aside * self.aside;
+        let is_steep = squared * T::literal(4.0) <= shrink * shrink;
+        let root = select_unpredictable(is_steep, beside, apart / squared).root();
         // Without cancellation.
         let sum = b.abs() + root;
         let falls = b > T::zero();

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::axis::Axis;
 use crate::numeric::vectors::wide;
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Frustum,
     Level, Shortcuts, SignedDistance, SmoothSurface, Topology,
@@ -134,7 +134,7 @@ impl<T: Real> Shortcuts<T> for CappedCylinder<T> {
     }
 
     /// As on a frustum.
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::vectors::{any_perpendicular, length, unit_or, wide};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -128,8 +128,11 @@ impl<T: Real> Capsule<T> {
         let radial = from_centre + u * foot;
         let remainder = T::one() - radial.norm_squared();
         // Where side and ball meet, rounding may find a line outside both: a hair's breadth.
-        let enters = (remainder >= -T::EPSILON * T::literal(16.0)) & (root >= T::zero());
-        let half_chord = remainder.max(T::zero()).root();
+        let meets = remainder >= -T::EPSILON * T::literal(16.0);
+        // All but along the axis, the place is known so badly that the ball there may be missed. The chord is the side's, too.
+        let on_side = (z.abs() <= half_length) & (remainder <= T::zero());
+        let enters = (meets | on_side) & (root >= T::zero());
+        let half_chord = select_unpredictable(on_side, root, remainder.max(T::zero()).root());
         let normal = radial - u * half_chord;
         let lift = over + (foot - half_chord) * line.rise;
         // The normal would keep the error of the place.
@@ -195,7 +198,7 @@ impl<T: Real> Shortcuts<T> for Capsule<T> {
         self.axis.outside_ball_by(point, end, self.radius)
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

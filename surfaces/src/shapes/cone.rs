@@ -9,7 +9,7 @@ use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{any_perpendicular, foot, is_finite, length, unit_or, wide};
 #[cfg(feature = "serde")]
 use crate::numeric::vectors::{from_degrees, to_degrees};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
     Shortcuts, SmoothSurface, Topology,
@@ -225,7 +225,7 @@ impl<T: Real> Shortcuts<T> for Cone<T> {
         self.axis.outside_cone_by(point, T::zero(), taper, self.cosine)
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

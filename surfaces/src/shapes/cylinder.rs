@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::axis::Axis;
 use crate::numeric::vectors::{hypotenuse, is_finite, length, wide};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, ForceParts, Level,
     Shortcuts, SmoothSurface, Topology,
@@ -242,7 +242,7 @@ impl<T: Real> Shortcuts<T> for Cylinder<T> {
         self.around().outside_by(point, self.radius)
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

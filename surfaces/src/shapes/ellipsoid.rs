@@ -8,7 +8,7 @@ use crate::numeric::twofold::{Twofold, dot};
 use crate::numeric::vectors::{
     any_perpendicular, foot, half_angle, hypotenuse, is_finite, length, unit_or, wide,
 };
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -234,7 +234,7 @@ impl<T: Real> Shortcuts<T> for Ellipsoid<T> {
         excess / (length(&gradient) * T::literal(2.0))
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

@@ -10,7 +10,7 @@ use crate::numeric::ellipse::closest_point;
 use crate::numeric::interval::{End, Inside};
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, length, unit_or, within_range};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Extent, Level, Shortcuts,
     SmoothSurface, Topology,
@@ -300,7 +300,7 @@ impl<T: Real> Shortcuts<T> for EllipticCylinder<T> {
         }
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

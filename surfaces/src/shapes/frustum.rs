@@ -10,7 +10,7 @@ use super::axis::{Axis, Local, LocalEntry};
 use crate::numeric::closest::to_convex;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{any_perpendicular, hypotenuse, length, unit_or, wide};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Corner, Crossing, Distance, Entry, Extent, ForceLine, Level,
     Shortcuts, SignedDistance, SmoothSurface, Topology,
@@ -253,7 +253,7 @@ impl<T: Real> Shortcuts<T> for Frustum<T> {
     }
 
     /// A line that grazes may leave through an end, or enter by one that is far from where the middle is.
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

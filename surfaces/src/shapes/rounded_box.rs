@@ -7,7 +7,7 @@ use crate::numeric::closest::to_convex;
 use crate::numeric::roots::first_of_convex;
 use crate::numeric::twofold::{Twofold, outside_ball};
 use crate::numeric::vectors::{foot, length, unit_or, wide};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, Level, Shortcuts,
     SignedDistance, SmoothSurface, Topology,
@@ -159,7 +159,7 @@ impl<T: Real> Shortcuts<T> for RoundedBox<T> {
     }
 
     /// An edge is bent sharply one way, and where a line passes over a seam its digits decide of which part the entry is.
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use crate::numeric::twofold::{difference, outside_ball};
 use crate::numeric::vectors::{larger, largest, length, smaller, unit_or, wide};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Entry, Extent, ForceLine, ForceParts,
     Level, Shortcuts, SignedDistance, SmoothSurface, Topology,
@@ -182,7 +182,7 @@ impl<T: Real> Shortcuts<T> for Sphere<T> {
         outside_ball(from_centre, self.radius * self.scale) / self.scale
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

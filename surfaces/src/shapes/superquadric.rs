@@ -10,8 +10,8 @@ use crate::numeric::support;
 use crate::numeric::twofold::{Twofold, Wide};
 use crate::numeric::vectors::{length, unit_or, wide};
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, Shortcuts,
-    SmoothSurface, Topology,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Entry, Extent, ForceLine, Level, LineInDouble,
+    Shortcuts, SmoothSurface, Topology,
 };
 
 /// A superellipsoid about the origin, its axes along x, y and z:
@@ -224,7 +224,7 @@ impl<T: Real> Shortcuts<T> for Superquadric<T> {
         quickly(self, push)
     }
 
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         finely(self, line, near)
     }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::superquadric::Superquadric;
 use super::superquadric_gauge::{Gauge, Powers};
 use crate::numeric::vectors::larger;
-use crate::{Entry, ForceLine};
+use crate::{Entry, ForceLine, LineInDouble};
 
 /// Steps from a start that is near, and from one that may be near tangency.
 const QUICK_STEPS: usize = 10;
@@ -45,13 +45,13 @@ pub(super) fn finely<T: Real>(
     shape: &Superquadric<T>,
     line: &Line<f64>,
     near: &Vector3<f64>,
-) -> Option<[Vector3<f64>; 2]> {
+) -> Option<LineInDouble> {
     let shape = shape.in_double()?;
     let scaled = Scaled::new(&line.point, &line.direction, &shape.curvatures);
     let start = (near.component_mul(&shape.curvatures) - scaled.foot).dot(&scaled.direction) / scaled.squared;
     let arrival = scaled.arrive(&shape, start, STEPS)?;
     let (point, normal) = arrival.in_place(&shape);
-    (point.sum() + normal.sum()).is_number().then_some([point, normal])
+    (point.sum() + normal.sum()).is_number().then_some(LineInDouble::Enters { point, normal })
 }
 
 /// A line in coordinates over the semi-axes, from its point nearest to the centre.

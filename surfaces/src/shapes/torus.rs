@@ -7,7 +7,7 @@ use super::ring::RingLine;
 use crate::numeric::closest::from_distance;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{foot, hypotenuse, is_finite, unit_or};
-use crate::shortcuts::entry_near;
+use crate::shortcuts::{LineInDouble, entry_near};
 use crate::{
     ActiveSurface, BadShape, ClosestApproach, Crossing, Distance, Extent, Level, Shortcuts, SignedDistance,
     SmoothSurface, Topology,
@@ -135,7 +135,7 @@ impl<T: Real> ActiveSurface<T> for Torus<T> {
 
 impl<T: Real> Shortcuts<T> for Torus<T> {
     /// A thin tube is bent sharply one way.
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 

@@ -3,7 +3,9 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use crate::{ActiveSurface, ClosestApproach, Crossing, Entry, ForceLine, Shortcuts, is_closed_convex};
+use crate::{
+    ActiveSurface, ClosestApproach, Crossing, Entry, ForceLine, LineInDouble, Shortcuts, is_closed_convex,
+};
 
 /// What the laws ask of a surface, so that they are compiled once for all of them rather than once for
 /// each: compilation is most of what trying a surface costs.
@@ -13,7 +15,7 @@ trait Answers<T: Real> {
     fn normal(&self, point: &Vector3<T>) -> Vector3<T>;
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>>;
     fn surface_residual(&self, point: &Vector3<T>) -> T;
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]>;
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble>;
     fn contains(&self, point: &Vector3<T>) -> bool;
 }
 
@@ -38,7 +40,7 @@ impl<T: Real, S: ActiveSurface<T>> Answers<T> for S {
         self.shortcuts().surface_residual(point)
     }
 
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         self.shortcuts().entry_in_double(line, near)
     }
 
@@ -92,7 +94,7 @@ impl<T: Real> Shortcuts<T> for Tried<'_, T> {
         self.surface.surface_residual(point)
     }
 
-    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         self.surface.entry_in_double(line, near)
     }
 }

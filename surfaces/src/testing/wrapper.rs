@@ -8,7 +8,7 @@ use super::laws::SurfaceLaws;
 use super::random::Random;
 use super::tried::Tried;
 use crate::numeric::vectors::{length, wide};
-use crate::{ActiveSurface, Entry, ForceLine, Shortcuts};
+use crate::{ActiveSurface, Entry, ForceLine, LineInDouble, Shortcuts};
 
 /// What a wrapper keeps of the shape inside, beside its answers; each includes those before.
 ///
@@ -100,9 +100,12 @@ impl<T: Real> SurfaceLaws<T> {
                     let exactly = Line { point: wide(&line.point), direction: wide(&line.direction) };
                     let near = wide(&crossing.point);
                     let apart = match [surface, wrapper].map(|s| s.entry_in_double(&exactly, &near)) {
-                        [Some(a), Some(b)] => T::literal((a[0] - b[0]).norm() + (a[1] - b[1]).norm()),
+                        [
+                            Some(LineInDouble::Enters { point: p, normal: n }),
+                            Some(LineInDouble::Enters { point, normal }),
+                        ] => T::literal((p - point).norm() + (n - normal).norm()),
                         // A pose tells more than its shape.
-                        [a, b] => count(a.is_some() && b.is_none()),
+                        [a, b] => count(a.is_some() && a != b),
                     };
                     self.expect(Law::WrapperKeepsResidual, &line, apart, allowed)?;
                 }

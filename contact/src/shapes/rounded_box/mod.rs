@@ -70,7 +70,7 @@ fn on_part<T: Real>(
         let along = side.map(|side| if side.is_zero() { one } else { T::zero() });
         return on_round_side(&centre, &along, rounding, &wrench.force(), &wrench.torque_about(&centre));
     }
-    on_sphere(&Sphere::new(centre, rounding).ok()?, wrench).ok()
+    on_sphere(&Sphere::new(centre, rounding).ok()?, wrench, T::EPSILON).ok()
 }
 
 /// By Newton's method, and where that does not settle, by all parts. Of a pure force, by numbers that are rounded to so much of
