@@ -67,7 +67,7 @@ fn onto_line<T: Real, S: ActiveSurface<T>>(
 ) -> (Vector3<T>, Vector3<T>) {
     match by_more_digits(wrench, surface, &point, incidence) {
         MoreDigits::Enters(point, normal) => (point, normal),
-        // A tangent but for rounding, which the place that it was given bears out.
+        // The line is a tangent but for rounding: it touches where it was found, and steps could only lead away.
         MoreDigits::Misses => (point, normal),
         MoreDigits::Unknown => mended(&scaled(wrench), surface, (point, normal), incidence),
     }

@@ -43,8 +43,8 @@ pub(crate) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftC
     move |contact| is_steady_under(&force, strength, contact, lever)
 }
 
-/// What was found in double precision, for a narrower type: `None` if the force presses by no more than rounding of the
-/// wrench's numbers there, which then says whether it does.
+/// What was found in double precision, for a narrower type: `None` if the force presses there by no more than rounding of
+/// the wrench's numbers: then the narrower type keeps its own answer.
 pub(crate) fn unless_flat<T: Real>(
     wrench: &Wrench<f64>,
     found: Result<SoftContact<f64>, Search<f64>>,

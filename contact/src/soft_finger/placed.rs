@@ -68,7 +68,8 @@ pub(crate) fn placed<T: Real>(patch: Patch, pose: Option<&RigidTransform<T>>) ->
     Some(Patch { surface, pose: Some(widely(pose)) })
 }
 
-/// The same pose, of numbers in double precision: not more of a rotation than before.
+/// The same numbers in double precision. A rotation that was stored in a narrower type stays orthogonal to the digits of
+/// that type only.
 pub(crate) fn widely<T: Real>(pose: &RigidTransform<T>) -> RigidTransform<f64> {
     let rotation = Rotation3::from_matrix_unchecked(pose.rotation().map(Real::to_f64));
     RigidTransform::from_parts(rotation, wide(&pose.origin()))

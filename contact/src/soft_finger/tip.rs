@@ -24,8 +24,9 @@ const HAIR: f64 = 1_048_576.0 * f64::EPSILON;
 /// Under a spin torque `τ` the torque about the tip leans away from the normals of the side by `(ℓ f·n/τ)²/2`, `ℓ` being
 /// how far the contact is from the tip: at 10⁷ times what the force has there as a torque that is less than rounding.
 /// The wrench and the cone are exact for all that their numbers say. So the lean is found with twice their digits, and
-/// the contact refined from where it says. A narrower type is answered in double precision, whose digits are enough for
-/// its numbers; a number that carries more than a value keeps what was found, which knows the derivative.
+/// the contact refined from where it says. For a narrower type the same is asked of the shape in double precision, whose
+/// own digits do not always do, either; a number that carries more than a value keeps what was found, which knows the
+/// derivative.
 ///
 /// `side` tells the cone, and the tip if it belongs to the shape; `holds` whether a place of the cone does; both in the
 /// frame of the shape, of which the pose is told, too.

@@ -73,8 +73,8 @@ impl<T: Real> Local<T> {
     ///
     /// `F(t) = |across + t·drift|² − (radius − t·shrink)² = a·t² + 2·b·t + c` is a quadratic, whose root
     /// with a falling value is wanted. Its discriminant is `|radius·drift + shrink·across|² − aside²`, and times `|drift|²`
-    /// it is `(radius·|drift|² + shrink·across·drift)² − a·aside²`. The one needs no difference of large numbers where the
-    /// line is all but parallel to the axis, the other nowhere else.
+    /// it is `(radius·|drift|² + shrink·across·drift)² − a·aside²`. The first form keeps its digits where the line is all but
+    /// parallel to the axis and `drift` is mostly rounding, the second everywhere else.
     #[inline(always)]
     pub(super) fn enters_cone(&self, radius: T, shrink: T) -> [T; 2] {
         let (squared, meets) = (self.squared, self.meets);
