@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 
 use crate::model::flat_when_moved;
 use crate::soft_finger::closed_form::is_pure_force;
-use crate::soft_finger::double::{in_type, narrow, widened};
-use crate::soft_finger::placed::{placed, widely};
+use crate::soft_finger::double::{in_type, moved_in_double, narrow, widened};
+use crate::soft_finger::placed::placed;
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
 /// The contacts of a posed shape by those of the shape, under the wrench in its frame.
@@ -54,7 +54,8 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
                 visit(self.with_more_digits(wrench, None, Ok(contact)).unwrap_or(contact));
             });
         }
-        let ended = match self.soft_contact_in_double(&widened(wrench)) {
+        let told = self.inner().posed_soft_contact_in_double(&widened(wrench), self.sensor_from_shape());
+        let ended = match told {
             Some(Ok(contact)) => {
                 visit(narrow(&contact));
                 return Search::Complete;
@@ -92,21 +93,15 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         Some(SoftContact { point: pose.transform_point(&found.point), normal, ..found })
     }
 
-    /// Of the shape under the wrench that has the contact there (`docs/theory/contact.md#shapes-in-a-pose`).
-    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        let pose = FinePose::new(self.sensor_from_shape());
-        let found = match self.inner().soft_contact_in_double(&pose.wrench_inside(wrench))? {
-            Ok(SoftContact { point, normal, spin_torque, active }) => {
-                let (normal, share) = pose.normal_outside(&normal);
-                let point = pose.point_outside(&point);
-                Ok(SoftContact { point, normal, spin_torque: spin_torque * share, active })
-            }
-            Err(Search::Grazing(pair)) => Err(Search::Grazing(pair.map(|point| pose.point_outside(&point)))),
-            Err(ended) => Err(ended),
-        };
-        // The wrench has been rounded on its way into the frame of the shape.
-        let pose = widely(self.sensor_from_shape());
-        Some(self.inner().with_more_digits_in_double(wrench, Some(&pose), found))
+    /// Of a pose of a pose.
+    fn posed_soft_contact_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: &RigidTransform<T>,
+    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        moved_in_double(pose, wrench, |inside| {
+            self.inner().posed_soft_contact_in_double(inside, self.sensor_from_shape())
+        })
     }
 
     /// That of the shape, in its place. A pose of a pose has none.
@@ -139,6 +134,15 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     }
 }
 
+/// A contact of the whole shape, active only where its place in the frame of the shape is in the region.
+fn within<T: Real, U: Real, S, R: Region<T>>(
+    trimmed: &Trimmed<S, R>,
+    contact: SoftContact<U>,
+    place: &Vector3<T>,
+) -> SoftContact<U> {
+    SoftContact { active: contact.active && trimmed.region().includes(place), ..contact }
+}
+
 impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Trimmed<S, R> {
     #[inline]
     fn soft_contacts(
@@ -147,23 +151,23 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
         last: Option<&Vector3<T>>,
         mut visit: impl FnMut(SoftContact<T>),
     ) -> Search<T> {
-        self.inner().soft_contacts(wrench, last, |contact| {
-            visit(SoftContact {
-                active: contact.active && self.region().includes(&contact.point),
-                ..contact
-            });
-        })
+        self.inner().soft_contacts(wrench, last, |contact| visit(within(self, contact, &contact.point)))
     }
 
     fn patch(&self, point: &Vector3<T>) -> Option<Patch> {
         self.inner().patch(point)
     }
 
-    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        let found = self.inner().soft_contact_in_double(wrench)?;
-        Some(found.map(|contact| SoftContact {
-            active: contact.active && self.region().includes(&contact.point.map(T::literal)),
-            ..contact
+    fn posed_soft_contact_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: &RigidTransform<T>,
+    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        let found = self.inner().posed_soft_contact_in_double(wrench, pose)?;
+        let pose = FinePose::new(pose);
+        Some(found.map(|contact| {
+            let place = pose.point_inside(&contact.point);
+            within(self, contact, &place.map(T::literal))
         }))
     }
 
@@ -176,29 +180,13 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
         let again = self.inner().with_more_digits(wrench, pose, found);
         again.map(|contact| {
             let place = pose.map_or(contact.point, |pose| point_inside(pose, &contact.point));
-            SoftContact { active: contact.active && self.region().includes(&place), ..contact }
-        })
-    }
-
-    fn with_more_digits_in_double(
-        &self,
-        wrench: &Wrench<f64>,
-        pose: Option<&RigidTransform<f64>>,
-        found: Result<SoftContact<f64>, Search<f64>>,
-    ) -> Result<SoftContact<f64>, Search<f64>> {
-        let again = self.inner().with_more_digits_in_double(wrench, pose, found);
-        again.map(|contact| {
-            let place = pose.map_or(contact.point, |pose| point_inside(pose, &contact.point)).map(T::literal);
-            SoftContact { active: contact.active && self.region().includes(&place), ..contact }
+            within(self, contact, &place)
         })
     }
 
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        self.inner().sole_soft_contact(push).map(|contact| SoftContact {
-            active: contact.active && self.region().includes(&contact.point),
-            ..contact
-        })
+        self.inner().sole_soft_contact(push).map(|contact| within(self, contact, &contact.point))
     }
 
     /// That of the whole shape.

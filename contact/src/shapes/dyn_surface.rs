@@ -26,8 +26,12 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.sole_soft_contact(push))
     }
 
-    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        each_surface!(self, shape => shape.soft_contact_in_double(wrench))
+    fn posed_soft_contact_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: &RigidTransform<T>,
+    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        each_surface!(self, shape => shape.posed_soft_contact_in_double(wrench, pose))
     }
 
     fn with_more_digits(
@@ -37,15 +41,6 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         found: Result<SoftContact<T>, Search<T>>,
     ) -> Result<SoftContact<T>, Search<T>> {
         each_surface!(self, shape => shape.with_more_digits(wrench, pose, found))
-    }
-
-    fn with_more_digits_in_double(
-        &self,
-        wrench: &Wrench<f64>,
-        pose: Option<&RigidTransform<f64>>,
-        found: Result<SoftContact<f64>, Search<f64>>,
-    ) -> Result<SoftContact<f64>, Search<f64>> {
-        each_surface!(self, shape => shape.with_more_digits_in_double(wrench, pose, found))
     }
 
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {

@@ -55,12 +55,21 @@ macro_rules! soft_finger {
                 $columns
             })?
 
-            $(fn soft_contact_in_double(
+            $(fn posed_soft_contact_in_double(
                 &self,
-                $fine: &fingertip_wrench::Wrench<f64>,
+                wrench: &fingertip_wrench::Wrench<f64>,
+                pose: &fingertip_wrench::RigidTransform<T>,
             ) -> Option<Result<$crate::SoftContact<f64>, $crate::Search<f64>>> {
                 let $coarse = self;
-                $again
+                let found = $crate::soft_finger::double::moved_in_double(pose, wrench, |$fine| $again)?;
+                // The wrench has been rounded on its way into the frame of the shape.
+                Some(match self.in_double() {
+                    Some(double) => {
+                        let pose = $crate::soft_finger::placed::widely(pose);
+                        double.with_more_digits(wrench, Some(&pose), found)
+                    }
+                    None => found,
+                })
             })?
 
             $(#[inline]
@@ -72,18 +81,6 @@ macro_rules! soft_finger {
             ) -> Result<$crate::SoftContact<T>, $crate::Search<T>> {
                 let $sure = self;
                 $surely
-            }
-
-            fn with_more_digits_in_double(
-                &self,
-                wrench: &fingertip_wrench::Wrench<f64>,
-                pose: Option<&fingertip_wrench::RigidTransform<f64>>,
-                found: Result<$crate::SoftContact<f64>, $crate::Search<f64>>,
-            ) -> Result<$crate::SoftContact<f64>, $crate::Search<f64>> {
-                match self.in_double() {
-                    Some(double) => double.with_more_digits(wrench, pose, found),
-                    None => found,
-                }
             })?
 
             $(fn patch(&self, $point: &nalgebra::Vector3<T>) -> Option<$crate::Patch> {

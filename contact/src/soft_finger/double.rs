@@ -1,8 +1,9 @@
 //! The second opinion of double precision.
 
+use fingertip_surfaces::numeric::fine_pose::FinePose;
 use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{length, wide};
-use fingertip_wrench::{Real, Wrench};
+use fingertip_wrench::{Real, RigidTransform, Wrench};
 
 use super::closed_form::is_steady_under;
 use crate::{Search, SoftContact};
@@ -55,6 +56,25 @@ pub(crate) fn unless_flat<T: Real>(
         Ok(contact) if !(-force.dot(&contact.normal) > least) => None,
         found => Some(found),
     }
+}
+
+/// The contact of a shape in a pose by that of the shape, under the wrench that has the contact there
+/// (`docs/theory/contact.md#shapes-in-a-pose`).
+pub(crate) fn moved_in_double<T: Real>(
+    pose: &RigidTransform<T>,
+    wrench: &Wrench<f64>,
+    of_shape: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
+) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+    let pose = FinePose::new(pose);
+    Some(match of_shape(&pose.wrench_inside(wrench))? {
+        Ok(SoftContact { point, normal, spin_torque, active }) => {
+            let (normal, share) = pose.normal_outside(&normal);
+            let point = pose.point_outside(&point);
+            Ok(SoftContact { point, normal, spin_torque: spin_torque * share, active })
+        }
+        Err(Search::Grazing(pair)) => Err(Search::Grazing(pair.map(|point| pose.point_outside(&point)))),
+        Err(ended) => Err(ended),
+    })
 }
 
 /// A wrench in double precision.

@@ -147,14 +147,18 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         self.sole_soft_contact(push)
     }
 
-    /// The contact in double precision, for a narrower type, of a shape that has but one; `Err` says how the search
-    /// ended. `None`, as the default answers, says nothing.
+    /// The contact in double precision, for a narrower type, of a shape in this pose that has but one; `Err` says how the
+    /// search ended. `None`, as the default answers, says nothing.
     ///
     /// A pose asks for it before [`soft_contacts`](Self::soft_contacts): it would round the wrench.
     #[doc(hidden)]
     #[inline]
-    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        let _ = wrench;
+    fn posed_soft_contact_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: &RigidTransform<T>,
+    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        let _ = (wrench, pose);
         None
     }
 
@@ -168,19 +172,6 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         pose: Option<&RigidTransform<T>>,
         found: Result<SoftContact<T>, Search<T>>,
     ) -> Result<SoftContact<T>, Search<T>> {
-        let _ = (wrench, pose);
-        found
-    }
-
-    /// The same of what was found in double precision, for a narrower type.
-    #[doc(hidden)]
-    #[inline]
-    fn with_more_digits_in_double(
-        &self,
-        wrench: &Wrench<f64>,
-        pose: Option<&RigidTransform<f64>>,
-        found: Result<SoftContact<f64>, Search<f64>>,
-    ) -> Result<SoftContact<f64>, Search<f64>> {
         let _ = (wrench, pose);
         found
     }
@@ -235,8 +226,12 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     }
 
     #[inline]
-    fn soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        (**self).soft_contact_in_double(wrench)
+    fn posed_soft_contact_in_double(
+        &self,
+        wrench: &Wrench<f64>,
+        pose: &RigidTransform<T>,
+    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        (**self).posed_soft_contact_in_double(wrench, pose)
     }
 
     #[inline]
@@ -247,16 +242,6 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
         found: Result<SoftContact<T>, Search<T>>,
     ) -> Result<SoftContact<T>, Search<T>> {
         (**self).with_more_digits(wrench, pose, found)
-    }
-
-    #[inline]
-    fn with_more_digits_in_double(
-        &self,
-        wrench: &Wrench<f64>,
-        pose: Option<&RigidTransform<f64>>,
-        found: Result<SoftContact<f64>, Search<f64>>,
-    ) -> Result<SoftContact<f64>, Search<f64>> {
-        (**self).with_more_digits_in_double(wrench, pose, found)
     }
 
     fn sensitivity(&self, size: usize, point: &Vector3<T>) -> Option<GeometrySensitivity<T>> {

@@ -135,4 +135,9 @@ table! {
     posed_plane: Posed<T, Plane<T>>;
     posed_sphere: Posed<T, Sphere<T>>;
     posed_ellipsoid: Posed<T, Ellipsoid<T>>;
+    posed_paraboloid: Posed<T, Paraboloid<T>>;
+    posed_torus: Posed<T, Torus<T>>;
+    posed_rounded_box: Posed<T, RoundedBox<T>>;
+    posed_revolution: Posed<T, Revolution<T, [Knot<T>; 2]>>;
+    posed_superquadric: Posed<T, Superquadric<T>>;
 }
