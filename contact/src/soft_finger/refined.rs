@@ -76,14 +76,8 @@ fn refined_on<T: Real>(
     let Seen { normal: start, curvatures, .. } = patch.seen::<f64>(point.into());
     let steepest = larger(curvatures[0].abs(), curvatures[1].abs());
     let spin = torque.abs();
-    let [w1, w2] = curvatures.map(|k| spin * k);
-    let pressing = strength * incidence;
-    let determinant = w1 * w2 + pressing * pressing;
-    // How far a torque moves the contact at most, and what the torques of the equations are per length of
-    // which a place is known: that of the force, and that of the normal's turn. Neither a flat angle nor
-    // spin torque nor a fold multiplies rounding by more than eight.
-    let answer = larger(spin * steepest, strength) / determinant.abs();
-    let stiffness = strength + spin * steepest;
+    // Neither a flat angle nor spin torque nor a fold multiplies rounding by more than eight.
+    let [answer, stiffness] = answers(curvatures, spin, strength, incidence);
     let steady = incidence >= flat() && spin <= strength * reach && answer * stiffness <= 8.0;
     // The normal of a place that is known to some units in the last place.
     let known = 64.0 * epsilon * (1.0 + steepest * reach);
@@ -91,7 +85,8 @@ fn refined_on<T: Real>(
         return *contact;
     }
     // How far rounding of a few terms of the size of the torque does.
-    let allowed = 64.0 * epsilon * (reach + (m.amax() + reach * stiffness) * answer);
+    let allowed =
+        |[answer, stiffness]: [f64; 2]| 64.0 * epsilon * (reach + (m.amax() + reach * stiffness) * answer);
     let start = (point, torque);
     // Of a type that is narrow enough for it double precision has digits to spare.
     let spare = f64::EPSILON * (m.amax() + reach * stiffness) * answer <= 0.02 * epsilon * reach;
@@ -102,15 +97,24 @@ fn refined_on<T: Real>(
     };
     match found {
         // Nor does rounding lead over an edge, as from the side of a closed cylinder to its end.
-        Some(end)
-            if (end.point - point).amax() <= allowed
-                && f.dot(&end.normal) < 0.0
-                && end.flat == is_flat(patch) =>
-        {
-            end.renews(contact, scale)
+        Some(end) if f.dot(&end.normal) < 0.0 && end.flat == is_flat(patch) => {
+            // From a seam it leads as far as the part lets it on which the contact is.
+            let there = answers(end.curvatures, end.spin.abs(), strength, -f.dot(&end.normal) / strength);
+            let most = larger(allowed([answer, stiffness]), allowed(there));
+            if (end.point - point).amax() <= most { end.renews(contact, scale) } else { *contact }
         }
         _ => *contact,
     }
+}
+
+/// How far a torque moves a contact at most, and what the torques of the equations are per length of which a place is
+/// known: that of the force, and that of the normal's turn.
+fn answers(curvatures: [f64; 2], spin: f64, strength: f64, incidence: f64) -> [f64; 2] {
+    let steepest = larger(curvatures[0].abs(), curvatures[1].abs());
+    let [w1, w2] = curvatures.map(|k| spin * k);
+    let pressing = strength * incidence;
+    let determinant = w1 * w2 + pressing * pressing;
+    [larger(spin * steepest, strength) / determinant.abs(), strength + spin * steepest]
 }
 
 /// The same from a contact that is only near: for where rounding keeps Newton's method from settling, as next
@@ -152,6 +156,7 @@ struct End {
     point: Vector3<f64>,
     normal: Vector3<f64>,
     spin: f64,
+    curvatures: [f64; 2],
     flat: bool,
 }
 
@@ -234,9 +239,9 @@ fn solve<W: Wide, T: Real>(
         let fine = T::EPSILON.to_f64() * 0.03 * rounded(point).amax();
         // As far as digits of the result go; a step that grows no shorter is what rounding leaves.
         if size <= fine || (taken >= 4 && size <= most * fine && size + size >= before) {
-            let normal = patch.seen(point).normal;
+            let Seen { normal, curvatures, .. } = patch.seen(point);
             let (point, normal, spin) = (rounded(point), rounded(normal), spin.rounded());
-            return Some(End { point, normal, spin, flat: is_flat(&patch) });
+            return Some(End { point, normal, spin, curvatures, flat: is_flat(&patch) });
         }
         // A step on another part that is no shorter than the one that led there leads away.
         if crossed && kind == Start::Rounded && size + size > before {
