@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use crate::model::flat_when_moved;
 use crate::soft_finger::closed_form::is_pure_force;
-use crate::soft_finger::double::{in_type, moved_in_double, narrow, widened};
+use crate::soft_finger::double::{Moved, in_type, narrow, widened};
 use crate::soft_finger::placed::placed;
 use crate::{GeometrySensitivity, Patch, Search, SoftContact, SoftFingerSurface, newton_soft_contacts};
 
@@ -54,14 +54,14 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
                 visit(self.with_more_digits(wrench, None, Ok(contact)).unwrap_or(contact));
             });
         }
-        let told = self.inner().posed_soft_contact_in_double(&widened(wrench), self.sensor_from_shape());
+        let (pose, mut any) = (self.sensor_from_shape(), false);
+        let told = self.inner().posed_soft_contacts_in_double(&widened(wrench), pose, &mut |contact| {
+            any = true;
+            visit(narrow(&contact));
+        });
         let ended = match told {
-            Some(Ok(contact)) => {
-                visit(narrow(&contact));
-                return Search::Complete;
-            }
-            Some(Err(pair @ Search::Grazing(_))) => return in_type(pair),
-            Some(Err(ended)) => ended,
+            Some(ended) if any || matches!(ended, Search::Grazing(_)) => return in_type(ended),
+            Some(ended) => ended,
             None => return moved(self, wrench, last, visit),
         };
         // A pure force either hits or misses, though it is none any more once it is moved.
@@ -94,14 +94,19 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     }
 
     /// Of a pose of a pose.
-    fn posed_soft_contact_in_double(
+    fn posed_soft_contacts_in_double(
         &self,
         wrench: &Wrench<f64>,
         pose: &RigidTransform<T>,
-    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        moved_in_double(pose, wrench, |inside| {
-            self.inner().posed_soft_contact_in_double(inside, self.sensor_from_shape())
-        })
+        visit: &mut dyn FnMut(SoftContact<f64>),
+    ) -> Option<Search<f64>> {
+        let own = self.sensor_from_shape();
+        let inner = self.inner();
+        Moved::new(pose).all(
+            wrench,
+            |inside, found| inner.posed_soft_contacts_in_double(inside, own, found),
+            visit,
+        )
     }
 
     /// That of the shape, in its place. A pose of a pose has none.
@@ -158,17 +163,17 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
         self.inner().patch(point)
     }
 
-    fn posed_soft_contact_in_double(
+    fn posed_soft_contacts_in_double(
         &self,
         wrench: &Wrench<f64>,
         pose: &RigidTransform<T>,
-    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        let found = self.inner().posed_soft_contact_in_double(wrench, pose)?;
-        let pose = FinePose::new(pose);
-        Some(found.map(|contact| {
-            let place = pose.point_inside(&contact.point);
-            within(self, contact, &place.map(T::literal))
-        }))
+        visit: &mut dyn FnMut(SoftContact<f64>),
+    ) -> Option<Search<f64>> {
+        let fine = FinePose::new(pose);
+        self.inner().posed_soft_contacts_in_double(wrench, pose, &mut |contact| {
+            let place = fine.point_inside(&contact.point);
+            visit(within(self, contact, &place.map(T::literal)));
+        })
     }
 
     fn with_more_digits(

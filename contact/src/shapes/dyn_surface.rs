@@ -26,12 +26,13 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.sole_soft_contact(push))
     }
 
-    fn posed_soft_contact_in_double(
+    fn posed_soft_contacts_in_double(
         &self,
         wrench: &Wrench<f64>,
         pose: &RigidTransform<T>,
-    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        each_surface!(self, shape => shape.posed_soft_contact_in_double(wrench, pose))
+        visit: &mut dyn FnMut(SoftContact<f64>),
+    ) -> Option<Search<f64>> {
+        each_surface!(self, shape => shape.posed_soft_contacts_in_double(wrench, pose, visit))
     }
 
     fn with_more_digits(

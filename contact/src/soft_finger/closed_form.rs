@@ -23,6 +23,7 @@ macro_rules! soft_finger {
         $(, sole |$only:ident, $load:ident| $sole:expr)?
         $(, columns |$each:ident, $many:ident| $columns:expr)?
         $(, double |$coarse:ident, $fine:ident| $again:expr)?
+        $(, all in double |$whole_coarse:ident, $whole_fine:ident, $each_of:ident| $all:expr)?
         $(, surely |$sure:ident, $whole:ident, $pose:ident, $found:ident| $surely:expr)?
         $(, patch |$part:pat_param, $point:pat_param| $patch:expr)?
         $(, sizes |$sized:pat_param, $size:ident, $place:pat_param| $change:expr)?) => {
@@ -55,21 +56,37 @@ macro_rules! soft_finger {
                 $columns
             })?
 
-            $(fn posed_soft_contact_in_double(
+            $(fn posed_soft_contacts_in_double(
                 &self,
                 wrench: &fingertip_wrench::Wrench<f64>,
                 pose: &fingertip_wrench::RigidTransform<T>,
-            ) -> Option<Result<$crate::SoftContact<f64>, $crate::Search<f64>>> {
+                visit: &mut dyn FnMut($crate::SoftContact<f64>),
+            ) -> Option<$crate::Search<f64>> {
                 let $coarse = self;
-                let found = $crate::soft_finger::double::moved_in_double(pose, wrench, |$fine| $again)?;
+                let found = $crate::soft_finger::double::Moved::new(pose).sole(wrench, |$fine| $again)?;
                 // The wrench has been rounded on its way into the frame of the shape.
-                Some(match self.in_double() {
+                let found = match self.in_double() {
                     Some(double) => {
                         let pose = $crate::soft_finger::placed::widely(pose);
                         double.with_more_digits(wrench, Some(&pose), found)
                     }
                     None => found,
-                })
+                };
+                Some($crate::soft_finger::closed_form::told(found, visit))
+            })?
+
+            $(fn posed_soft_contacts_in_double(
+                &self,
+                wrench: &fingertip_wrench::Wrench<f64>,
+                pose: &fingertip_wrench::RigidTransform<T>,
+                visit: &mut dyn FnMut($crate::SoftContact<f64>),
+            ) -> Option<$crate::Search<f64>> {
+                let $whole_coarse = self;
+                $crate::soft_finger::double::Moved::new(pose).all(
+                    wrench,
+                    |$whole_fine, $each_of| $all,
+                    visit,
+                )
             })?
 
             $(#[inline]

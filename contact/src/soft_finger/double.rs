@@ -58,23 +58,48 @@ pub(crate) fn unless_flat<T: Real>(
     }
 }
 
-/// The contact of a shape in a pose by that of the shape, under the wrench that has the contact there
+/// Contacts of a shape in a pose by those of the shape, under the wrench that has them there
 /// (`docs/theory/contact.md#shapes-in-a-pose`).
-pub(crate) fn moved_in_double<T: Real>(
-    pose: &RigidTransform<T>,
-    wrench: &Wrench<f64>,
-    of_shape: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
-) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    let pose = FinePose::new(pose);
-    Some(match of_shape(&pose.wrench_inside(wrench))? {
-        Ok(SoftContact { point, normal, spin_torque, active }) => {
-            let (normal, share) = pose.normal_outside(&normal);
-            let point = pose.point_outside(&point);
-            Ok(SoftContact { point, normal, spin_torque: spin_torque * share, active })
+pub(crate) struct Moved(FinePose);
+
+impl Moved {
+    pub(crate) fn new<T: Real>(pose: &RigidTransform<T>) -> Self {
+        Self(FinePose::new(pose))
+    }
+
+    fn outside(&self, contact: &SoftContact<f64>) -> SoftContact<f64> {
+        let (normal, share) = self.0.normal_outside(&contact.normal);
+        let (point, spin_torque) = (self.0.point_outside(&contact.point), contact.spin_torque * share);
+        SoftContact { point, normal, spin_torque, active: contact.active }
+    }
+
+    fn ended(&self, search: Search<f64>) -> Search<f64> {
+        match search {
+            Search::Grazing(pair) => Search::Grazing(pair.map(|point| self.0.point_outside(&point))),
+            ended => ended,
         }
-        Err(Search::Grazing(pair)) => Err(Search::Grazing(pair.map(|point| pose.point_outside(&point)))),
-        Err(ended) => Err(ended),
-    })
+    }
+
+    /// Of a shape that has but one.
+    pub(crate) fn sole(
+        &self,
+        wrench: &Wrench<f64>,
+        of_shape: impl FnOnce(&Wrench<f64>) -> Option<Result<SoftContact<f64>, Search<f64>>>,
+    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
+        let found = of_shape(&self.0.wrench_inside(wrench))?;
+        Some(found.map(|contact| self.outside(&contact)).map_err(|search| self.ended(search)))
+    }
+
+    /// Of any shape.
+    pub(crate) fn all(
+        &self,
+        wrench: &Wrench<f64>,
+        of_shape: impl FnOnce(&Wrench<f64>, &mut dyn FnMut(SoftContact<f64>)) -> Option<Search<f64>>,
+        visit: &mut dyn FnMut(SoftContact<f64>),
+    ) -> Option<Search<f64>> {
+        let search = of_shape(&self.0.wrench_inside(wrench), &mut |contact| visit(self.outside(&contact)))?;
+        Some(self.ended(search))
+    }
 }
 
 /// A wrench in double precision.

@@ -147,18 +147,19 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         self.sole_soft_contact(push)
     }
 
-    /// The contact in double precision, for a narrower type, of a shape in this pose that has but one; `Err` says how the
-    /// search ended. `None`, as the default answers, says nothing.
+    /// The contacts of the shape in this pose in double precision, for a narrower type. `None`, as the default answers,
+    /// says nothing.
     ///
     /// A pose asks for it before [`soft_contacts`](Self::soft_contacts): it would round the wrench.
     #[doc(hidden)]
     #[inline]
-    fn posed_soft_contact_in_double(
+    fn posed_soft_contacts_in_double(
         &self,
         wrench: &Wrench<f64>,
         pose: &RigidTransform<T>,
-    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        let _ = (wrench, pose);
+        visit: &mut dyn FnMut(SoftContact<f64>),
+    ) -> Option<Search<f64>> {
+        let _ = (wrench, pose, visit);
         None
     }
 
@@ -226,12 +227,13 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     }
 
     #[inline]
-    fn posed_soft_contact_in_double(
+    fn posed_soft_contacts_in_double(
         &self,
         wrench: &Wrench<f64>,
         pose: &RigidTransform<T>,
-    ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-        (**self).posed_soft_contact_in_double(wrench, pose)
+        visit: &mut dyn FnMut(SoftContact<f64>),
+    ) -> Option<Search<f64>> {
+        (**self).posed_soft_contacts_in_double(wrench, pose, visit)
     }
 
     #[inline]

@@ -148,7 +148,7 @@ fn on_torus<T: Real>(
         return search(torus, wrench, T::EPSILON, &mut visit);
     }
     if is_pure_force_of(&wrench.force(), &wrench.torque(), T::EPSILON) {
-        return in_double(torus, wrench, &mut visit);
+        return again(torus, wrench, &mut visit);
     }
     let mut found = [None; MOST];
     let (mut count, mut steady) = (0, true);
@@ -164,27 +164,32 @@ fn on_torus<T: Real>(
         found.into_iter().flatten().for_each(visit);
         return Search::Complete;
     }
-    in_double(torus, wrench, &mut visit)
+    again(torus, wrench, &mut visit)
 }
 
+fn again<T: Real>(torus: &Torus<T>, wrench: &Wrench<T>, visit: &mut dyn FnMut(SoftContact<T>)) -> Search<T> {
+    in_double(torus, &widened(wrench), &mut |contact| visit(narrow(&contact)))
+        .map_or(Search::Incomplete, in_type)
+}
+
+/// In double precision, under a wrench of which the numbers were rounded to the narrower type.
 #[cold]
 #[inline(never)]
 fn in_double<T: Real>(
     torus: &Torus<T>,
-    wrench: &Wrench<T>,
-    visit: &mut dyn FnMut(SoftContact<T>),
-) -> Search<T> {
-    let Some(double) = torus.in_double() else { return Search::Incomplete };
-    let (wrench, epsilon) = (widened(wrench), T::EPSILON.to_f64());
+    wrench: &Wrench<f64>,
+    visit: &mut dyn FnMut(SoftContact<f64>),
+) -> Option<Search<f64>> {
+    let (double, epsilon) = (torus.in_double()?, T::EPSILON.to_f64());
     let mut any = false;
-    let ended = search(&double, &wrench, epsilon, &mut |contact| {
+    let ended = search(&double, wrench, epsilon, &mut |contact| {
         any = true;
-        visit(narrow(&contact));
+        visit(contact);
     });
     if any || !is_pure_force_of(&wrench.force(), &wrench.torque(), epsilon) {
-        return in_type(ended);
+        return Some(ended);
     }
-    in_type(grazing(&double, &wrench, epsilon, &mut |contact| visit(narrow(&contact))))
+    Some(grazing(&double, wrench, epsilon, visit))
 }
 
 /// The contacts of a pure force whose line misses by no more than rounding of its numbers, to so much of them: those that the
@@ -224,6 +229,9 @@ fn is_folding<T: Real>(torus: &Torus<T>, force: &Vector3<T>, contact: &SoftConta
 soft_finger!(
     Torus,
     |shape, wrench, _, visit| on_torus(shape, wrench, visit),
+    all in double | shape,
+    wrench,
+    visit | in_double(shape, wrench, visit),
     patch | shape,
     _ | Some(LocalSurface::Torus { ring: shape.ring_radius().to_f64(), tube: shape.tube_radius().to_f64() }),
     sizes | shape,

@@ -1,6 +1,6 @@
 //! The same of shapes in poses, where moving the wrench into the frame of the shape rounds it.
 
-use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Frustum, Posed, Sphere};
+use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Frustum, Posed, RoundedBox, Sphere, Torus};
 use fingertip_wrench::{Real, RigidTransform};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -288,4 +288,95 @@ fn a_force_that_grazes_a_posed_sphere_near_by() {
         1e-4,
     );
     assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 1), "{count}");
+}
+
+/// Pressed at a flat angle with next to no spin torque: moved in single precision, it only pulls.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_ring_in_a_pose_at_a_flat_angle() {
+    let rotation = [
+        0.920_929_1_f32,
+        0.022_050_26,
+        0.389_105_9,
+        0.043_252_565,
+        0.986_448,
+        -0.158_270_48,
+        -0.387_322_63,
+        0.162_585_7,
+        0.907_494_9,
+    ];
+    let count = judged(
+        Asked::Soft,
+        Posed::new(
+            Torus::new(5.865_888_3e-5, 7.162_359_5e-6).unwrap(),
+            pose(rotation, [0.000_107_431_63, 2.086_569_7e-5, -8.180_258e-5]),
+        ),
+        [[3.728_150_5e-5, -5.514_305e-5, 0.000_193_519_63], [2.327_967_5e-11, -3.365_212e-8, -9.593_593e-9]],
+        [0.000_154_212_249_803_694_26, 2.923_323_804_273_205e-5, -0.000_102_169_283_250_405_12],
+        5.865_888_3e-5,
+    );
+    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
+}
+
+/// Two contacts that are about to merge in a fold, on a posed torus.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_fold_on_a_ring_in_a_pose() {
+    let rotation = [
+        -0.428_603_4_f32,
+        0.227_615_12,
+        0.874_351_5,
+        -0.873_549_2,
+        0.142_681_39,
+        -0.465_353_73,
+        -0.230_675_13,
+        -0.963_241_2,
+        0.137_679_34,
+    ];
+    let count = judged(
+        Asked::Soft,
+        Posed::new(
+            Torus::new(0.090_185_03, 0.011_604_8).unwrap(),
+            pose(rotation, [0.262_551_96, -0.112_954_52, -0.090_110_786]),
+        ),
+        [
+            [-73_575_820_000.0, -20_348_936_000.0, -102_629_180_000.0],
+            [1_829_707_000.0, 42_996_806_000.0, -9_836_982_000.0],
+        ],
+        [0.310_061_267_372_928_4, -0.047_944_630_824_066_234, -0.151_890_558_883_015_11],
+        0.090_185_03,
+    );
+    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
+}
+
+/// On an edge of a posed box, under a spin torque of 50 000 radii.
+#[test]
+fn a_very_large_spin_torque_on_a_box_in_a_pose() {
+    let half =
+        Vector3::new(1.481_801_170_410_778_7e-5, 2.792_618_069_641_970_7e-5, 2.841_833_675_902_361_2e-5);
+    let rotation = [
+        0.647_309_362_134_261_9_f64,
+        0.037_396_218_794_465_697,
+        0.761_309_472_234_000_3,
+        0.698_124_621_187_161,
+        -0.430_008_754_984_736_1,
+        -0.572_463_521_919_746_7,
+        0.305_961_767_195_867_76,
+        0.902_049_884_128_562_9,
+        -0.304_455_913_981_036,
+    ];
+    let count = judged(
+        Asked::Soft,
+        Posed::new(
+            RoundedBox::new(half, 4.354_392_080_142_508_5e-6).unwrap(),
+            pose(rotation, [0.0, 0.0, -0.0]),
+        ),
+        [
+            [0.004_904_392_184_082_318, -0.025_857_326_525_155_027, 0.011_739_964_652_547_067],
+            [0.004_118_403_274_606_427, 0.002_938_714_907_848_8, 0.004_774_663_911_975_041],
+        ],
+        [-2.709_301_613_891_353_6e-5, 1.366_967_975_548_915_1e-5, -2.071_020_896_496_624_5e-5],
+        3e-5,
+    );
+    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
