@@ -114,7 +114,8 @@ fn answers(curvatures: [f64; 2], spin: f64, strength: f64, incidence: f64) -> [f
     let [w1, w2] = curvatures.map(|k| spin * k);
     let pressing = strength * incidence;
     let determinant = w1 * w2 + pressing * pressing;
-    [larger(spin * steepest, strength) / determinant.abs(), strength + spin * steepest]
+    let stiffness = strength + spin * steepest;
+    [larger(spin * steepest, strength) / determinant.abs(), stiffness]
 }
 
 /// The same from a contact that is only near: for where rounding keeps Newton's method from settling, as next
