@@ -11,8 +11,7 @@ use fingertip_wrench::{Real, Wrench};
 use nalgebra::{Vector2, Vector3};
 
 use crate::model::flat;
-use crate::soft_finger::closed_form::{is_pure_force, soft_finger, told};
-use crate::soft_finger::double::unless_flat;
+use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger, told};
 use crate::{GeometrySensitivity, Search, SoftContact};
 
 /// The soft-finger contact of a force and torque on `x²/a + y²/b + 2z = 0`.
@@ -108,10 +107,16 @@ fn is_active<T: Real>(shape: &Paraboloid<T>, z: T) -> bool {
     shape.depth().is_none_or(|depth| -z <= depth)
 }
 
+/// `epsilon` is that of the type in which the wrench was told.
+///
 /// # Errors
 /// The pair of points that a pure force which misses would graze; [`Search::Complete`] of a force along the axis that pulls;
 /// [`Search::Incomplete`] of a contact beyond the range of the type.
-fn on_paraboloid<T: Real>(shape: &Paraboloid<T>, wrench: &Wrench<T>) -> Result<SoftContact<T>, Search<T>> {
+fn on_paraboloid<T: Real>(
+    shape: &Paraboloid<T>,
+    wrench: &Wrench<T>,
+    epsilon: T,
+) -> Result<SoftContact<T>, Search<T>> {
     let [a, b] = shape.radii();
     let unit = larger(a, b).normalising_factor();
     let length = unit.normalising_factor();
@@ -122,9 +127,10 @@ fn on_paraboloid<T: Real>(shape: &Paraboloid<T>, wrench: &Wrench<T>) -> Result<S
     let power = (wrench.force() * scale).dot(&(wrench.torque() * scale)) * unit;
     let solved = OnParaboloid::new([a * unit, b * unit], &f, &m, power);
     // As on the sphere: below it, and of a pure force for all that its numbers say, the sign of `f·m` is rounding.
-    let least = (T::EPSILON * T::literal(4.0)).whole_power(2) * f.norm_squared();
+    let least = (epsilon * T::literal(4.0)).whole_power(2) * f.norm_squared();
+    let is_pure = || is_pure_force_of(&wrench.force(), &wrench.torque(), epsilon);
     let (along, spin) = (solved.found.x, solved.found.y);
-    if solved.misses && (!(along * along > least) || is_pure_force(&wrench.force(), &wrench.torque())) {
+    if solved.misses && (!(along * along > least) || is_pure()) {
         let place = |spin: T| solved.contact(&Vector2::new(T::zero(), spin)).point * length;
         return Err(Search::Grazing([place(spin), place(-spin)]));
     }
@@ -154,20 +160,13 @@ fn steeply_on_paraboloid<T: Real>(shape: &Paraboloid<T>, push: &ForceLine<T>) ->
     (in_range & steep).then(|| SoftContact { active, ..levelled(&contact, squared) })
 }
 
-fn in_double<T: Real>(
-    shape: &Paraboloid<T>,
-    wrench: &Wrench<f64>,
-) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    shape.in_double().and_then(|double| unless_flat::<T>(wrench, on_paraboloid(&double, wrench)))
-}
-
 soft_finger!(
     Paraboloid,
-    |shape, wrench, _, visit| told(on_paraboloid(shape, wrench), visit),
+    |shape, wrench, _, visit| told(on_paraboloid(shape, wrench, T::EPSILON), visit),
     sole | shape,
     push | steeply_on_paraboloid(shape, push),
     double | shape,
-    wrench | in_double(shape, wrench),
+    wrench | shape.in_double().map(|double| on_paraboloid(&double, wrench, T::EPSILON.to_f64())),
     sizes | shape,
     size,
     point | of_paraboloid(shape, point).get(size).copied()

@@ -44,20 +44,6 @@ pub(crate) fn is_steady<T: Real>(wrench: &Wrench<T>, lever: T) -> impl Fn(&SoftC
     move |contact| is_steady_under(&force, strength, contact, lever)
 }
 
-/// What was found in double precision, for a narrower type: `None` if the force presses there by no more than rounding of
-/// the wrench's numbers: then the narrower type keeps its own answer.
-pub(crate) fn unless_flat<T: Real>(
-    wrench: &Wrench<f64>,
-    found: Result<SoftContact<f64>, Search<f64>>,
-) -> Option<Result<SoftContact<f64>, Search<f64>>> {
-    let force = wrench.force();
-    let least = 4.0 * T::EPSILON.to_f64() * length(&force);
-    match found {
-        Ok(contact) if !(-force.dot(&contact.normal) > least) => None,
-        found => Some(found),
-    }
-}
-
 /// Contacts of a shape in a pose by those of the shape, under the wrench that has them there
 /// (`docs/theory/contact.md#shapes-in-a-pose`).
 pub(crate) struct Moved(FinePose);

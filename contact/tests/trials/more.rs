@@ -1,5 +1,6 @@
 //! Shapes to 31 digits of which [`crate::exact`] and [`crate::solids`] do not speak.
 
+use fingertip_surfaces::numeric::twofold::Twofold;
 use fingertip_surfaces::{
     Ellipsoid, Implicit, ImplicitSurface, Knot, Paraboloid, Posed, Revolution, Sphere, Superquadric, Term,
     Topology,
@@ -110,13 +111,14 @@ impl<T: Real> ImplicitSurface<T> for Quartic<T> {
         Some(T::literal(4.2) / self.unit)
     }
 
-    /// In double precision, for a narrower type.
+    /// With twice the digits of double precision.
     fn value_left(&self, point: &Vector3<T>) -> T {
-        if T::EPSILON.to_f64() <= f64::EPSILON {
-            return T::zero();
-        }
-        let double = Quartic { unit: self.unit.to_f64() };
-        T::literal(ImplicitSurface::<f64>::value(&double, &point.map(Real::to_f64)))
+        let [x, y, z] = [point.x, point.y, point.z].map(|x| {
+            let square = Twofold::new(x.to_f64()).over(self.unit.to_f64()).squared();
+            square.squared().plus(square.times(Twofold::new(0.5)))
+        });
+        let value = x.plus(y).plus(z).minus(Twofold::new(1.0));
+        T::literal(0.5 * value.value())
     }
 
     fn topology(&self) -> Topology {

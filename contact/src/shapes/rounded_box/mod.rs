@@ -73,9 +73,8 @@ fn on_part<T: Real>(
     on_sphere(&Sphere::new(centre, rounding).ok()?, wrench, T::EPSILON).ok()
 }
 
-/// By Newton's method, and where that does not settle, by all parts. Of a pure force, by numbers that are rounded to so much of
-/// them, which either hits or misses, only a contact at an angle that rounding does not make: the root of it is what rounding
-/// makes of a line that touches.
+/// By Newton's method, and where that does not settle, by all parts. `epsilon` is that of the type in which the wrench was
+/// told: a pure force that presses by no more than it grazes, as on a sphere.
 fn search<T: Real>(
     shape: &RoundedBox<T>,
     wrench: &Wrench<T>,
@@ -84,13 +83,22 @@ fn search<T: Real>(
 ) -> Result<SoftContact<T>, Search<T>> {
     let mut found = None;
     let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
-    if found.is_none() && search == Search::Incomplete {
-        let force = wrench.force();
-        let is_pure = is_pure_force_of(&force, &wrench.torque(), epsilon);
-        let least = if is_pure { epsilon.root() * length(&force) } else { T::zero() };
-        found = by_parts(shape, wrench).filter(|found| -force.dot(&found.normal) >= least);
+    if let Some(found) = found {
+        return Ok(found);
     }
-    found.ok_or(search)
+    if search != Search::Incomplete {
+        return Err(search);
+    }
+    let (force, torque) = (wrench.force(), wrench.torque());
+    let found = by_parts(shape, wrench).ok_or(search)?;
+    let least = epsilon * T::literal(4.0) * length(&force);
+    if -force.dot(&found.normal) > least || !is_pure_force_of(&force, &torque, epsilon) {
+        return Ok(found);
+    }
+    // The other of the pair is the contact of the wrench with the opposite torque along the force.
+    let twice = force * ((force.dot(&torque) + force.dot(&torque)) / force.norm_squared());
+    let other = by_parts(shape, &Wrench::on_fingertip(force, torque - twice));
+    Err(Search::Grazing([found.point, other.unwrap_or(found).point]))
 }
 
 /// In double precision if the type is narrower: where the closed forms do not answer, the spin torque rules or the force

@@ -1,14 +1,14 @@
 //! The same of shapes in poses, where moving the wrench into the frame of the shape rounds it.
 
-use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Frustum, Posed, RoundedBox, Sphere, Torus};
+use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Frustum, Posed, Sphere, Torus};
 use fingertip_wrench::{Real, RigidTransform};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::judged;
+use super::{judged, told};
 use crate::try_out::Asked;
 
 /// A pose of which the rows of the rotation are told.
-fn pose<T: Real>(rotation: [T; 9], origin: [T; 3]) -> RigidTransform<T> {
+pub(super) fn pose<T: Real>(rotation: [T; 9], origin: [T; 3]) -> RigidTransform<T> {
     let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(&rotation));
     RigidTransform::from_parts(rotation, origin.into())
 }
@@ -34,7 +34,7 @@ fn on_the_side_next_to_an_edge() {
         -0.808_470_775_548_920_1,
     ];
     let origin = [-0.035_634_977_910_977_13, 0.055_382_718_980_592_494, 0.119_258_122_395_462_25];
-    let count = judged(
+    told(
         Asked::Soft,
         Posed::new(cylinder.unwrap(), pose(rotation, origin)),
         [
@@ -44,7 +44,6 @@ fn on_the_side_next_to_an_edge() {
         [8.173_641_733_520_393, 2.428_963_274_833_974_2, 6.027_313_048_645_156],
         4.5,
     );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
 
 /// Where moving a line to a posed sphere rounds it at an angle that is nearly flat.
@@ -63,7 +62,7 @@ fn a_posed_sphere_at_a_middling_angle() {
         0.921_971_5,
         -0.329_666_85,
     ];
-    let count = judged(
+    told(
         Asked::Point,
         Posed::new(sphere.unwrap(), pose(rotation, [0.0; 3])),
         [
@@ -73,7 +72,6 @@ fn a_posed_sphere_at_a_middling_angle() {
         [-0.007_323_716_757_981_129, 0.011_937_176_877_851_126, -0.026_718_636_602_641_458],
         0.019,
     );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
 
 /// On the edge of a posed cone with a normal that is all but along the axis: where on the edge.
@@ -121,7 +119,7 @@ fn a_large_spin_torque_next_to_a_seam_in_a_pose() {
         -0.779_162_102_521_637_4,
         -0.622_351_537_907_777_5,
     ];
-    let count = judged(
+    told(
         Asked::Soft,
         Posed::new(
             Capsule::new(Vector3::zeros(), axis, 3.107_080_343_806_948, 1.601_742_681_851_226_8).unwrap(),
@@ -134,7 +132,6 @@ fn a_large_spin_torque_next_to_a_seam_in_a_pose() {
         [-3.486_700_858_445_796, 6.478_510_053_180_271, 3.415_672_332_464_531_7],
         3.0,
     );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
 
 /// One that misses a posed cone by less than single precision can tell, and touches at a tangent if it does not.
@@ -183,7 +180,7 @@ fn a_large_spin_torque_next_to_the_tip_in_a_pose() {
         -0.052_380_13,
         -0.736_633_54,
     ];
-    let count = judged(
+    told(
         Asked::Soft,
         Posed::new(
             Cone::new(Vector3::zeros(), axis, 0.201_204_66).unwrap(),
@@ -193,7 +190,6 @@ fn a_large_spin_torque_next_to_the_tip_in_a_pose() {
         [-0.000_105_944_864_549_603_23, -0.000_305_474_906_402_863_27, 0.001_179_639_114_091_152_9],
         1e-4,
     );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
 
 /// On a posed cylinder at a middling angle, where a spin torque multiplies what moving the wrench rounds.
@@ -213,7 +209,7 @@ fn a_posed_capped_cylinder_at_a_middling_angle() {
         -0.059_655_517,
         -0.388_760_86,
     ];
-    let count = judged(
+    told(
         Asked::Soft,
         Posed::new(
             CappedCylinder::new(centre, axis, 4.149_604e-6, 1.811_782_8e-6).unwrap(),
@@ -223,7 +219,6 @@ fn a_posed_capped_cylinder_at_a_middling_angle() {
         [8.336_266_394_404_124e-7, -2.150_373_808_305_249e-6, 1.502_274_407_467_490_7e-5],
         4e-6,
     );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
 
 /// A pure force that grazes a posed sphere, or passes by: single precision cannot tell, and double says so.
@@ -305,7 +300,7 @@ fn a_ring_in_a_pose_at_a_flat_angle() {
         0.162_585_7,
         0.907_494_9,
     ];
-    let count = judged(
+    told(
         Asked::Soft,
         Posed::new(
             Torus::new(5.865_888_3e-5, 7.162_359_5e-6).unwrap(),
@@ -315,7 +310,6 @@ fn a_ring_in_a_pose_at_a_flat_angle() {
         [0.000_154_212_249_803_694_26, 2.923_323_804_273_205e-5, -0.000_102_169_283_250_405_12],
         5.865_888_3e-5,
     );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
 
 /// Two contacts that are about to merge in a fold, on a posed torus.
@@ -333,7 +327,7 @@ fn a_fold_on_a_ring_in_a_pose() {
         -0.963_241_2,
         0.137_679_34,
     ];
-    let count = judged(
+    told(
         Asked::Soft,
         Posed::new(
             Torus::new(0.090_185_03, 0.011_604_8).unwrap(),
@@ -346,37 +340,4 @@ fn a_fold_on_a_ring_in_a_pose() {
         [0.310_061_267_372_928_4, -0.047_944_630_824_066_234, -0.151_890_558_883_015_11],
         0.090_185_03,
     );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
-}
-
-/// On an edge of a posed box, under a spin torque of 50 000 radii.
-#[test]
-fn a_very_large_spin_torque_on_a_box_in_a_pose() {
-    let half =
-        Vector3::new(1.481_801_170_410_778_7e-5, 2.792_618_069_641_970_7e-5, 2.841_833_675_902_361_2e-5);
-    let rotation = [
-        0.647_309_362_134_261_9_f64,
-        0.037_396_218_794_465_697,
-        0.761_309_472_234_000_3,
-        0.698_124_621_187_161,
-        -0.430_008_754_984_736_1,
-        -0.572_463_521_919_746_7,
-        0.305_961_767_195_867_76,
-        0.902_049_884_128_562_9,
-        -0.304_455_913_981_036,
-    ];
-    let count = judged(
-        Asked::Soft,
-        Posed::new(
-            RoundedBox::new(half, 4.354_392_080_142_508_5e-6).unwrap(),
-            pose(rotation, [0.0, 0.0, -0.0]),
-        ),
-        [
-            [0.004_904_392_184_082_318, -0.025_857_326_525_155_027, 0.011_739_964_652_547_067],
-            [0.004_118_403_274_606_427, 0.002_938_714_907_848_8, 0.004_774_663_911_975_041],
-        ],
-        [-2.709_301_613_891_353_6e-5, 1.366_967_975_548_915_1e-5, -2.071_020_896_496_624_5e-5],
-        3e-5,
-    );
-    assert_eq!((count.unsure, count.none, count.unjudged), (0, 0, 0), "{count}");
 }
