@@ -93,6 +93,11 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
         Some(SoftContact { point: pose.transform_point(&found.point), normal, ..found })
     }
 
+    fn sole_soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+        let moved = Moved::new(self.sensor_from_shape());
+        moved.found(wrench, |inside| self.inner().sole_soft_contact_in_double(inside))
+    }
+
     /// Of a pose of a pose.
     fn posed_soft_contacts_in_double(
         &self,
@@ -192,6 +197,11 @@ impl<T: Real, S: SoftFingerSurface<T>, R: Region<T>> SoftFingerSurface<T> for Tr
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         self.inner().sole_soft_contact(push).map(|contact| within(self, contact, &contact.point))
+    }
+
+    fn sole_soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+        let found = self.inner().sole_soft_contact_in_double(wrench);
+        found.map(|contact| within(self, contact, &contact.point.map(T::literal)))
     }
 
     /// That of the whole shape.

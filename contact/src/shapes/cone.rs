@@ -78,6 +78,14 @@ fn cone_in_double<T: Real>(
     Some(surely(&double, wrench, None, on_side_or_tip(&double, wrench)))
 }
 
+/// On the side, for a narrower type.
+fn exactly_on_cone<T: Real>(cone: &Cone<T>, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+    let double = cone.in_double()?;
+    let push = ForceLine::new(wrench, ForceLine::least_squared())?;
+    let (contact, _) = slanted_side(&double).contact_for_narrower(&push)?;
+    Some(if_active(&double, None, contact))
+}
+
 fn side_of_cone<T: Real>(cone: &Cone<T>) -> LocalSurface {
     LocalSurface::Cone {
         origin: wide(&cone.apex()),
@@ -107,6 +115,8 @@ soft_finger!(
     ),
     sole | shape,
     push | steeply_on_cone(shape, push),
+    exactly | shape,
+    wrench | exactly_on_cone(shape, wrench),
     double | shape,
     wrench | cone_in_double(shape, wrench),
     surely | shape,

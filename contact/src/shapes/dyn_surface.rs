@@ -26,6 +26,10 @@ impl<T: Real> SoftFingerSurface<T> for DynSurface<T> {
         each_surface!(self, shape => shape.sole_soft_contact(push))
     }
 
+    fn sole_soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+        each_surface!(self, shape => shape.sole_soft_contact_in_double(wrench))
+    }
+
     fn posed_soft_contacts_in_double(
         &self,
         wrench: &Wrench<f64>,

@@ -127,6 +127,16 @@ fn steeply_on_frustum<T: Real>(solid: &Frustum<T>, push: &ForceLine<T>) -> Optio
     (steep & inside).then(|| SoftContact { point: origin + away, normal, spin_torque, active: true })
 }
 
+/// On the side, for a narrower type.
+fn exactly_on_frustum<T: Real>(solid: &Frustum<T>, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+    let double = solid.in_double()?;
+    let push = ForceLine::new(wrench, ForceLine::least_squared())?;
+    let (contact, above) = slanted_side(&double).contact_for_narrower(&push)?;
+    // Rounding is multiplied by as much there.
+    let hair = hair(&double) * 1e6;
+    (above >= hair && above <= double.height() - hair).then_some(contact)
+}
+
 /// As near to an edge as rounding brings a contact.
 fn hair<T: Real>(solid: &Frustum<T>) -> T {
     (solid.height() + solid.base_radius() + solid.top_radius()) * (T::literal(64.0) * T::EPSILON)
@@ -260,6 +270,8 @@ soft_finger!(
     },
     sole | shape,
     push | steeply_on_frustum(shape, push),
+    exactly | shape,
+    wrench | exactly_on_frustum(shape, wrench),
     double | shape,
     wrench | frustum_in_double(shape, wrench),
     surely | shape,

@@ -14,8 +14,14 @@ use crate::{Search, SoftContact};
 /// With `(1 + x)² ≤ 4/3 (1 + 3x²)` no root is needed.
 #[inline(always)]
 pub(super) fn is_steep<T: Real>(push: &ForceLine<T>, pressing: T, twist: T) -> bool {
+    is_above(flat(), push, pressing, twist)
+}
+
+/// The same of another cosine.
+#[inline(always)]
+fn is_above<T: Real>(flat: T, push: &ForceLine<T>, pressing: T, twist: T) -> bool {
     let squared = push.squared() + twist * twist * T::literal(3.0);
-    pressing * pressing >= flat::<T>() * flat::<T>() * squared
+    pressing * pressing >= flat * flat * squared
 }
 
 /// A straight side around an axis, unbounded, as far as it goes before the axis.
@@ -48,6 +54,19 @@ impl<T: Real> SlantedSide<T> {
     /// rounding: where the force grazes, or next to the tip. `None` there, or where a square leaves the range.
     #[inline(always)]
     pub(super) fn steep_contact(&self, push: &ForceLine<T>) -> Option<(SoftContact<T>, T)> {
+        self.contact_above(flat(), T::literal(0.06), push)
+    }
+
+    /// The same for a narrower type: where rounding is multiplied by no more than a million, half of the digits of double
+    /// precision are left.
+    #[inline(never)]
+    pub(super) fn contact_for_narrower(&self, push: &ForceLine<T>) -> Option<(SoftContact<T>, T)> {
+        self.contact_above(T::literal(1e-3), T::literal(1e-6), push)
+    }
+
+    /// Above a cosine of incidence, and above a share that is left under the root.
+    #[inline(always)]
+    fn contact_above(&self, flat: T, left: T, push: &ForceLine<T>) -> Option<(SoftContact<T>, T)> {
         let &Self { origin, axis, radius, sine, cosine } = self;
         let (f, m) = (push.force(), push.torque_about(&origin));
         let (rise, turning) = (f.dot(&axis), m.dot(&axis));
@@ -56,7 +75,7 @@ impl<T: Real> SlantedSide<T> {
         let (squared, aside) = (v.norm_squared(), aside * aside);
         let root_squared = squared - w * w;
         // Not where the torque is all but along the side's normals, and the root loses digits.
-        let wide = root_squared >= (squared + aside) * T::literal(0.06);
+        let wide = root_squared >= (squared + aside) * left;
         if !(wide & (squared >= T::LEAST_NORMAL) & (squared <= T::GREATEST)) {
             return None;
         }
@@ -70,7 +89,7 @@ impl<T: Real> SlantedSide<T> {
         let around = radius - along * sine;
         let height = along * cosine;
         // What rounding does is multiplied by no more than `(1 + |τ κ|/|f|)²/(f·n/|f|)²`, `κ` being the curvature.
-        let is_steady = is_steep(push, pressing, spin_torque * (cosine / around));
+        let is_steady = is_above(flat, push, pressing, spin_torque * (cosine / around));
         let point = origin + (outward * around + axis * height);
         // Nor so near to the tip that the way there from the origin takes digits. False for a NaN, too.
         let is_near = (around > T::zero()) & (around * T::literal(4.0) >= radius);

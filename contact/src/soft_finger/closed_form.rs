@@ -22,6 +22,7 @@ macro_rules! soft_finger {
     ($(#[$doc:meta])* $shape:ident, |$this:ident, $wrench:ident, $last:pat_param, $visit:ident| $search:expr
         $(, sole |$only:ident, $load:ident| $sole:expr)?
         $(, columns |$each:ident, $many:ident| $columns:expr)?
+        $(, exactly |$narrow:ident, $wide:ident| $exactly:expr)?
         $(, double |$coarse:ident, $fine:ident| $again:expr)?
         $(, all in double |$whole_coarse:ident, $whole_fine:ident, $each_of:ident| $all:expr)?
         $(, surely |$sure:ident, $whole:ident, $pose:ident, $found:ident| $surely:expr)?
@@ -54,6 +55,14 @@ macro_rules! soft_finger {
             ) -> Option<$crate::SoftContact<T>> {
                 let $each = self;
                 $columns
+            })?
+
+            $(fn sole_soft_contact_in_double(
+                &self,
+                $wide: &fingertip_wrench::Wrench<f64>,
+            ) -> Option<$crate::SoftContact<f64>> {
+                let $narrow = self;
+                $exactly
             })?
 
             $(fn posed_soft_contacts_in_double(

@@ -1,11 +1,13 @@
 //! From a wrench to the contact of a soft finger, or the reason why there is none.
 
 use fingertip_surfaces::ForceLine;
+use fingertip_surfaces::numeric::mixed_precision::is_asked_again;
 use fingertip_surfaces::numeric::vectors::{hypotenuse, is_tame, larger, largest, rarely_length, smaller};
 use fingertip_wrench::{Line, Real, Wrench};
 use nalgebra::Vector3;
 
 use super::closed_form::is_pure_force;
+use super::double::{narrow, widened};
 use super::refined::refined;
 use crate::model::long_way;
 use crate::{
@@ -46,6 +48,13 @@ struct Scaled<T: Real> {
     unit: Option<T>,
 }
 
+impl<T: Real> Scaled<T> {
+    /// A torque of the wrench as it was told.
+    fn back(&self, torque: T) -> T {
+        self.unit.map_or(torque, |unit| (torque / unit).max(-T::GREATEST).min(T::GREATEST))
+    }
+}
+
 impl<T: Real> SoftFinger<T> {
     /// The friction ratio that a contact needs, if that is more than there is.
     fn beyond_friction(&self, force: &Vector3<T>, contact: &SoftContact<T>) -> Option<T> {
@@ -76,8 +85,32 @@ impl<T: Real> SoftFinger<T> {
             Ok(scaled) => scaled,
             Err(reason) => return Resolution::NoContact(reason),
         };
+        if is_asked_again::<T>()
+            && let Some(contact) = self.in_double(wrench, &scaled, surface)
+        {
+            return Resolution::Contact(contact);
+        }
         let found = self.search(wrench, &scaled, surface, last);
         if self.torque_noise.is_zero() { found } else { self.either_side(found, &scaled, surface) }
+    }
+
+    /// The one contact in closed form, in double precision: for a narrower type, which has no more digits to be refined to.
+    /// `None` says nothing.
+    #[inline(never)]
+    fn in_double<S: SoftFingerSurface<T>>(
+        &self,
+        wrench: &Wrench<T>,
+        scaled: &Scaled<T>,
+        surface: &S,
+    ) -> Option<Contact<T>> {
+        if !self.torque_noise.is_zero() {
+            return None;
+        }
+        let contact = narrow(&surface.sole_soft_contact_in_double(&widened(&scaled.wrench))?);
+        let is_told = contact.active
+            && is_in_range(&contact)
+            && self.beyond_friction(&scaled.wrench.force(), &contact).is_none();
+        is_told.then(|| contact_at(wrench, &contact, scaled.back(contact.spin_torque)))
     }
 
     /// A wrench that needs no factor, or why it is no contact; `None` of another.
@@ -129,9 +162,7 @@ impl<T: Real> SoftFinger<T> {
         let search = self.look(&scaled.wrench, surface, last, &mut seen);
         if let Some((contact, _)) = seen.best {
             let contact = refined(&scaled.wrench, surface, &contact);
-            let spin_torque = scaled.unit.map_or(contact.spin_torque, |unit| {
-                (contact.spin_torque / unit).max(-T::GREATEST).min(T::GREATEST)
-            });
+            let spin_torque = scaled.back(contact.spin_torque);
             let found = contact_at(wrench, &contact, spin_torque);
             let searched = matches!(search, Search::Uncertified);
             return Resolution::Contact(Contact { alternatives: seen.candidates - 1, searched, ..found });

@@ -147,6 +147,16 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         self.sole_soft_contact(push)
     }
 
+    /// The same by the closed form in double precision, for a narrower type, of which it is right to the last digit: what
+    /// double precision's own rounding may show in it is `None`, as the default answers. [`SoftFinger`](crate::SoftFinger)
+    /// asks for it after [`sole_soft_contact`](Self::sole_soft_contact).
+    #[doc(hidden)]
+    #[inline]
+    fn sole_soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+        let _ = wrench;
+        None
+    }
+
     /// The contacts of the shape in this pose in double precision, for a narrower type. `None`, as the default answers,
     /// says nothing.
     ///
@@ -224,6 +234,11 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     #[inline(always)]
     fn sole_soft_contact_in_columns(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         (**self).sole_soft_contact_in_columns(push)
+    }
+
+    #[inline]
+    fn sole_soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+        (**self).sole_soft_contact_in_double(wrench)
     }
 
     #[inline]

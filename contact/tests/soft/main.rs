@@ -27,6 +27,7 @@ mod parameters;
 mod pillow;
 mod pitch;
 mod shapes;
+mod short_in_double;
 mod short_ways;
 mod skin;
 mod skin_covariance;

@@ -19,13 +19,10 @@ use crate::soft_finger::double::{finely, is_steady as is_steady_at, narrow, wide
 use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
 
 /// The contact by the closed forms of all faces, edges and corners: that of which the place is on its own part, or by rounding
-/// beside it.
-///
-/// For what Newton's method does not settle: it goes to and fro where a contact is next to a seam, at which the curvature
-/// jumps.
+/// beside it; and how far beside, as a share of the rounding.
 #[cold]
 #[inline(never)]
-fn by_parts<T: Real>(shape: &RoundedBox<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
+fn by_parts<T: Real>(shape: &RoundedBox<T>, wrench: &Wrench<T>) -> Option<(SoftContact<T>, T)> {
     let (half, rounding, zero) = (shape.half_extents(), shape.rounding(), T::zero());
     let core = half.map(|half| half - rounding);
     let force = wrench.force();
@@ -46,7 +43,7 @@ fn by_parts<T: Real>(shape: &RoundedBox<T>, wrench: &Wrench<T>) -> Option<SoftCo
             best = Some((found, off));
         }
     }
-    best.filter(|(_, off)| *off <= T::EPSILON.root() * rounding).map(|(found, _)| found)
+    best.map(|(found, off)| (found, off / rounding)).filter(|(_, off)| *off <= T::EPSILON.root())
 }
 
 /// On the whole plane, cylinder or ball of the part on this side of the core (−1, 0 or 1 along each axis).
@@ -73,7 +70,8 @@ fn on_part<T: Real>(
     on_sphere(&Sphere::new(centre, rounding).ok()?, wrench, T::EPSILON).ok()
 }
 
-/// By Newton's method, and where that does not settle, by all parts. `epsilon` is that of the type in which the wrench was
+/// By all parts, and where rounding decides between them, by Newton's method first: that goes to and fro where a contact is next
+/// to a seam, at which the curvature jumps. `epsilon` is that of the type in which the wrench was
 /// told: a pure force that presses by no more than it grazes, as on a sphere.
 fn search<T: Real>(
     shape: &RoundedBox<T>,
@@ -81,6 +79,14 @@ fn search<T: Real>(
     last: Option<&Vector3<T>>,
     epsilon: T,
 ) -> Result<SoftContact<T>, Search<T>> {
+    let by_parts = |wrench: &Wrench<T>| by_parts(shape, wrench);
+    let on_part = by_parts(wrench);
+    if let Some((contact, off)) = on_part
+        && off.is_zero()
+        && is_steady_at(wrench, shape.rounding() * T::literal(1e4))(&contact)
+    {
+        return Ok(contact);
+    }
     let mut found = None;
     let search = newton_soft_contacts(shape, wrench, last, |contact| found = Some(contact));
     if let Some(found) = found {
@@ -90,15 +96,15 @@ fn search<T: Real>(
         return Err(search);
     }
     let (force, torque) = (wrench.force(), wrench.torque());
-    let found = by_parts(shape, wrench).ok_or(search)?;
+    let (found, _) = on_part.ok_or(search)?;
     let least = epsilon * T::literal(4.0) * length(&force);
     if -force.dot(&found.normal) > least || !is_pure_force_of(&force, &torque, epsilon) {
         return Ok(found);
     }
     // The other of the pair is the contact of the wrench with the opposite torque along the force.
     let twice = force * ((force.dot(&torque) + force.dot(&torque)) / force.norm_squared());
-    let other = by_parts(shape, &Wrench::on_fingertip(force, torque - twice));
-    Err(Search::Grazing([found.point, other.unwrap_or(found).point]))
+    let other = by_parts(&Wrench::on_fingertip(force, torque - twice));
+    Err(Search::Grazing([found.point, other.map_or(found.point, |(other, _)| other.point)]))
 }
 
 /// In double precision if the type is narrower: where the closed forms do not answer, the spin torque rules or the force
@@ -127,9 +133,13 @@ fn rounded_box_in_double<T: Real>(
     last: Option<&Vector3<f64>>,
 ) -> Option<Result<SoftContact<f64>, Search<f64>>> {
     let double = shape.in_double()?;
-    let steep = ForceLine::new(wrench, ForceLine::least_squared())
-        .and_then(|push| steeply_on_rounded_box(&double, &push, LEVERS_IN_DOUBLE));
+    let steep = steeply_in_double(&double, wrench);
     Some(steep.map_or_else(|| search(&double, wrench, last, T::EPSILON.to_f64()), Ok))
+}
+
+fn steeply_in_double(double: &RoundedBox<f64>, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
+    let push = ForceLine::new(wrench, ForceLine::least_squared())?;
+    steeply_on_rounded_box(double, &push, LEVERS_IN_DOUBLE)
 }
 
 soft_finger!(
@@ -139,6 +149,8 @@ soft_finger!(
     push | steeply_on_rounded_box(shape, push, steady_levers()),
     columns | shape,
     push | steeply_in_columns(shape, push),
+    exactly | shape,
+    wrench | steeply_in_double(&shape.in_double()?, wrench),
     double | shape,
     wrench | rounded_box_in_double(shape, wrench, None),
     patch | shape,
