@@ -121,6 +121,22 @@ mod tests {
         }
     }
 
+    /// Of gauges that read in units of their own, each counts by its own size.
+    #[test]
+    fn the_unit_of_a_single_gauge_is_nothing() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(23);
+        let signals = gaussian_matrix(&mut random, 100, 6) * sensor(&mut random, 6, 6);
+        let mut others = signals.clone();
+        let units = [1.0, 1e-8, 1e6, 1.0, 1e-3, 1e9];
+        others.column_iter_mut().zip(units).for_each(|(mut column, unit)| column *= unit);
+        let (region, of_others) = (Region::of(&signals).unwrap(), Region::of(&others).unwrap());
+        for i in 0..100 {
+            let row = |table: &DMatrix<f64>| table.row(i).iter().map(|x| 0.5 * x).collect::<Vec<f64>>();
+            let (distance, other) = (region.distance(&row(&signals)), of_others.distance(&row(&others)));
+            assert!((distance - other).abs() < 1e-9, "{distance} {other}");
+        }
+    }
+
     /// Seven gauges of a sensor of six components: what no load does, noise and drift do, and is not refused for it.
     #[test]
     fn a_direction_that_no_load_uses_is_not_narrow() {

@@ -197,6 +197,10 @@ mod tests {
             ..Terms::default()
         };
         assert_eq!(many.described(), "10 products of two signals and 3 of three");
+        // Eight are named, nine are counted.
+        let first = |count: usize| Terms { products: vec![vec![0, 0]; count], ..Terms::default() };
+        assert_eq!(first(8).described(), ["v1·v1"; 8].join(", "));
+        assert_eq!(first(9).described(), "9 products of two signals");
         assert!(!one.is_empty() && Terms::default().is_empty());
     }
 

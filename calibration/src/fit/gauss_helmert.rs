@@ -292,6 +292,21 @@ mod tests {
     use nalgebra::DMatrix;
     use rand::SeedableRng as _;
 
+    /// What is regressed on may be exact; what is read is not.
+    #[test]
+    fn a_reading_without_an_error_is_refused() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(6);
+        let design = gaussian_matrix(&mut random, 12, 2);
+        let responses = &design * sensor(&mut random, 2, 3);
+        let exact = DMatrix::zeros(12, 2);
+        let mut deviations = DMatrix::repeat(12, 3, 0.1);
+        assert!(gauss_helmert(&design, &responses, &exact, &deviations).is_ok());
+        for bad in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+            deviations[(7, 1)] = bad;
+            assert!(gauss_helmert(&design, &responses, &exact, &deviations).is_err(), "{bad}");
+        }
+    }
+
     #[test]
     fn equals_total_least_squares_where_errors_are_alike() {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(4);

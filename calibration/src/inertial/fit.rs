@@ -369,7 +369,7 @@ fn warnings(fit: &InertialFit, options: &InertialOptions) -> Vec<String> {
 mod tests {
     use nalgebra::Vector6;
 
-    use super::floored;
+    use super::{InertialOptions, Parameters, floored, prior};
 
     /// Readings without any scatter do not weigh endlessly: as if they scattered by 1e-7 of the load, torques at least by
     /// that of the force at a millimetre.
@@ -389,5 +389,23 @@ mod tests {
         assert!((floored(&noisy, &load) - expected).amax() < 1e-18);
         // Without any load at all they are still numbers to divide by.
         assert!(floored(&still, &still).iter().all(|x| *x > 0.0));
+    }
+
+    /// Of a tonne as of a gram a thousand times itself may be the mass, and the centre within the reach.
+    #[test]
+    fn what_is_believed_before_grows_with_the_mass() {
+        let options = InertialOptions::default();
+        for mass in [1e-3, 0.05, 1e3] {
+            let mut about = Parameters::zeros();
+            about[0] = mass;
+            let prior = prior(&options, &about, 0.3);
+            assert_eq!(prior.mean[super::PARAMETERS], -0.3);
+            let deviation = prior.deviation;
+            let reach = options.reach;
+            let expected = [1e3 * mass, mass * reach, mass * reach, mass * reach, mass * reach * reach];
+            for (k, expected) in expected.into_iter().enumerate() {
+                assert!((deviation[k] / expected - 1.0).abs() < 1e-12, "{k}: {deviation}");
+            }
+        }
     }
 }

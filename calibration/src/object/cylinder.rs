@@ -97,3 +97,39 @@ pub fn fit_cylinder(
     let settled = settle(&touches, noise, &mut rod, |rod| [rod.radius, rod.radius, rod.radius, 1.0, 1.0])?;
     Ok(settled.with(Cylinder::new(centroid + rod.offset, rod.axis, rod.radius)?, rod.concave))
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::{Concave, Model as _, Rod, across};
+
+    /// A step is taken whole up to half of the radius and half a radian, and of a longer one so much.
+    #[test]
+    fn no_step_is_longer_than_half_of_the_radius_or_half_a_radian() {
+        let axis = Vector3::z();
+        for (step, told, share) in [
+            ([0.5, 0.0, 0.0, 0.0, 0.1], 0.25, 1.0),
+            ([0.2, 0.6, 0.0, 0.4, 0.0], 0.4, 1.0),
+            ([-1.0, 2.0, -1.0, 0.0, 0.5], 2.0, 0.25),
+            ([0.2, 0.0, 0.0, 0.5, -2.0], 2.0, 0.25),
+        ] {
+            let [e1, e2] = across(&axis);
+            let mut rod = Rod {
+                axis,
+                across: [e1, e2],
+                offset: Vector3::zeros(),
+                radius: 2.0,
+                concave: Concave::of(2.0),
+            };
+            let length = rod.advance(&step);
+            assert!((length - told).abs() < 1e-12, "{length}");
+            let [radius, first, second, tilt1, tilt2] = step.map(|x| x * share);
+            assert!((rod.radius - 2.0 - radius).abs() < 1e-12, "{step:?}");
+            let leaning = (axis + e1 * tilt1 + e2 * tilt2).normalize();
+            assert!((rod.axis - leaning).norm() < 1e-12, "{step:?}");
+            let offset = e1 * first + e2 * second;
+            assert!((rod.offset - offset + leaning * leaning.dot(&offset)).norm() < 1e-12, "{step:?}");
+        }
+    }
+}

@@ -85,3 +85,25 @@ pub fn fit_sphere(
     let settled = settle(&touches, noise, &mut round, |round| [round.radius; 4])?;
     Ok(settled.with(Sphere::new(centroid + round.centre, round.radius)?, round.concave))
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::{Concave, Model as _, Round};
+
+    /// A step is taken whole up to half of the radius, and of a longer one so much.
+    #[test]
+    fn no_step_is_longer_than_half_of_the_radius() {
+        for (step, told, radius, x) in [
+            ([0.5, 0.0, 0.0, 0.0], 0.25, 2.5, 0.0),
+            ([-0.4, 0.6, 0.0, 0.0], 0.5, 1.6, 0.6),
+            ([2.0, -4.0, 0.0, 0.0], 3.0, 2.0 + 1.0 / 3.0, -2.0 / 3.0),
+        ] {
+            let mut ball = Round { centre: Vector3::zeros(), radius: 2.0, concave: Concave::of(2.0) };
+            let length = ball.advance(&step);
+            assert!((length - told).abs() < 1e-12, "{length}");
+            assert!((ball.radius - radius).abs() < 1e-12 && (ball.centre.x - x).abs() < 1e-12, "{step:?}");
+        }
+    }
+}

@@ -171,6 +171,7 @@ fn what_a_motion_does_not_excite_is_named() {
     assert!(fit.centre_deviation.x > 0.05 && fit.body.inertia.amax() < 2e-3, "{:?}", fit.body);
     // What is not told of the inertia is that of a point at the centre, of which nothing is negative.
     assert!(fit.least_moment.abs() < 5e-4, "{}", fit.least_moment);
+    assert!(!fit.warnings.iter().any(|warning| warning.starts_with("no body has")), "{:?}", fit.warnings);
     assert_eq!(fit.verdict(), Verdict::Suspect);
     assert!(fit.share_left() < 0.05, "{}", fit.share_left());
 }

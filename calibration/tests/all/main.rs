@@ -17,6 +17,7 @@ mod inertial;
 mod intervals;
 mod kept;
 mod metrics;
+mod mistakes;
 mod motion;
 mod objects;
 mod payload;
