@@ -23,8 +23,8 @@ fn table() -> LoadTable {
     LoadTable::new(&Axis::ALL, loads, signals, SignalUnit::Volt).unwrap()
 }
 
-/// The file with another matrix in signals per load.
-fn with(file: &CalibrationFile, change: impl Fn(DMatrix<f64>) -> DMatrix<f64>) -> CalibrationFile {
+/// The file with another matrix in signals per load, as people write it.
+pub(crate) fn with(file: &CalibrationFile, change: impl Fn(DMatrix<f64>) -> DMatrix<f64>) -> CalibrationFile {
     let mut sensitivities = file.matrix.clone();
     for (mut column, nominal) in sensitivities.column_iter_mut().zip(&file.nominal) {
         column /= *nominal;

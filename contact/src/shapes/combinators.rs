@@ -95,7 +95,7 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
 
     fn sole_soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
         let moved = Moved::new(self.sensor_from_shape());
-        moved.found(wrench, |inside| self.inner().sole_soft_contact_in_double(inside))
+        moved.sole(wrench, |inside| self.inner().sole_soft_contact_in_double(inside).map(Ok))?.ok()
     }
 
     /// Of a pose of a pose.

@@ -20,8 +20,8 @@ use crate::{Search, SoftContact};
 /// With `c = A y`, `A = diag(a)`, the equations become those of the unit sphere under the wrench
 /// `(A⁻¹ f, A m / det A)`; the spin torque is `k |A⁻¹ y| · det A` in the scale of that wrench.
 /// (`D = A⁻²` in `docs/theory/contact.md#central-quadrics`, where the identity is `(Df) × m = A(f̃ × m̃)`.)
-/// `fine` asks for twice the digits, which a narrower type that asks in double precision does not need; `epsilon` is that of
-/// the type in which the wrench was told.
+/// `epsilon` is that of the type in which the wrench was told: a narrower one that asks in double precision does not need twice
+/// the digits of it.
 ///
 /// # Errors
 /// The pair of points that a pure force which misses would graze.
@@ -29,7 +29,6 @@ use crate::{Search, SoftContact};
 pub(super) fn on_ellipsoid<T: Real>(
     shape: &Ellipsoid<T>,
     wrench: &Wrench<T>,
-    fine: bool,
     epsilon: T,
 ) -> Result<SoftContact<T>, [Vector3<T>; 2]> {
     let semi_axes = shape.semi_axes();
@@ -42,8 +41,8 @@ pub(super) fn on_ellipsoid<T: Real>(
     let m = wrench.torque().component_mul(&(across(&b) * unit));
     let scale = taming_factor(larger(largest(&f), largest(&m)));
     let loads = [wrench.force() * scale, wrench.torque() * unit * scale];
-    let solved = if fine {
-        finely(&(semi_axes * unit), loads, epsilon)
+    let solved = if epsilon == T::EPSILON {
+        finely(&(semi_axes * unit), loads)
     } else {
         let [force, torque] = loads;
         let (f, m) = (f * scale, m * scale);
@@ -68,7 +67,6 @@ pub(super) fn on_ellipsoid<T: Real>(
 fn finely<T: Real>(
     semi_axes: &Vector3<T>,
     [force, torque]: [Vector3<T>; 2],
-    epsilon: T,
 ) -> Result<OnUnitSphere<T>, [Vector3<T>; 2]> {
     let [bx, by, bz] = <[T; 3]>::from(*semi_axes).map(|a| Twofold::new(T::one()).over(a));
     let (force, torque) = (exactly(&force), exactly(&torque));
@@ -76,7 +74,7 @@ fn finely<T: Real>(
     let ([fx, fy, fz], [mx, my, mz]) = (force, torque);
     let f = [fx.times(bx), fy.times(by), fz.times(bz)];
     let m = [mx.times(by.times(bz)), my.times(bz.times(bx)), mz.times(xy)];
-    OnUnitSphere::finely(f, m, power.times(xy.times(bz)), epsilon)
+    OnUnitSphere::finely(f, m, power.times(xy.times(bz)))
 }
 
 /// The same for a force that is tame and presses steeply, on an ellipsoid of which the same holds.
@@ -113,17 +111,14 @@ fn across<T: Real>(b: &Vector3<T>) -> Vector3<T> {
 
 soft_finger!(
     Ellipsoid,
-    |shape, wrench, _, visit| told(
-        on_ellipsoid(shape, wrench, true, T::EPSILON).map_err(Search::Grazing),
-        visit
-    ),
+    |shape, wrench, _, visit| told(on_ellipsoid(shape, wrench, T::EPSILON).map_err(Search::Grazing), visit),
     sole | shape,
     push | steeply_on_ellipsoid(shape, push),
     double | shape,
     wrench
-        | shape.in_double().map(|double| {
-            on_ellipsoid(&double, wrench, false, T::EPSILON.to_f64()).map_err(Search::Grazing)
-        }),
+        | shape
+            .in_double()
+            .map(|double| { on_ellipsoid(&double, wrench, T::EPSILON.to_f64()).map_err(Search::Grazing) }),
     // The three semi-axes.
     sizes | shape,
     size,

@@ -66,15 +66,6 @@ impl Moved {
         }
     }
 
-    /// The sole contact of a shape.
-    pub(crate) fn found(
-        &self,
-        wrench: &Wrench<f64>,
-        of_shape: impl FnOnce(&Wrench<f64>) -> Option<SoftContact<f64>>,
-    ) -> Option<SoftContact<f64>> {
-        Some(self.outside(&of_shape(&self.0.wrench_inside(wrench))?))
-    }
-
     /// Of a shape that has but one.
     pub(crate) fn sole(
         &self,

@@ -266,7 +266,7 @@ fn place<T: Real>(resolution: &Resolution<T>) -> Option<Vector3<T>> {
 }
 
 /// The wrench with the opposite torque along its force.
-fn mirrored<T: Real>(wrench: &Wrench<T>) -> Wrench<T> {
+pub(crate) fn mirrored<T: Real>(wrench: &Wrench<T>) -> Wrench<T> {
     let (force, torque) = (wrench.force(), wrench.torque());
     let direction = force / rarely_length(&force);
     let along = direction.dot(&torque);

@@ -59,13 +59,12 @@ impl<T: Real> OnUnitSphere<T> {
         f: [Twofold<T>; 3],
         m: [Twofold<T>; 3],
         power: Twofold<T>,
-        epsilon: T,
     ) -> Result<Self, [Vector3<T>; 2]> {
         let (force, torque) = (dot(f, f), dot(m, m));
         let (f, m) = (Vector3::from(f.map(Twofold::value)), Vector3::from(m.map(Twofold::value)));
         let squares = [force.value(), torque.value()];
         let solved = Self::with_difference(&f, &m, squares, torque.minus(force).value(), power.value());
-        solved.unless_grazing(&f, &m, epsilon)
+        solved.unless_grazing(&f, &m, T::EPSILON)
     }
 
     /// With `|f|²` and `|m|²`, and `σ` apart from them.

@@ -5,11 +5,8 @@ use fingertip_surfaces::{ActiveSurface, Cone, ForceLine, Frustum, Posed, Rounded
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::slanted_sides::number;
 use crate::wrenches::{Case, Random};
-
-fn narrow(wrench: &Wrench<f64>) -> Wrench<f32> {
-    Wrench::on_fingertip(wrench.force().map(|x| x as f32), wrench.torque().map(|x| x as f32))
-}
 
 fn wide(wrench: &Wrench<f32>) -> Wrench<f64> {
     Wrench::on_fingertip(wrench.force().map(f64::from), wrench.torque().map(f64::from))
@@ -28,7 +25,7 @@ fn left<S: SoftFingerSurface<f32>>(
     for _ in 0..4000 {
         let (point, normal) = random.place(double, size);
         let spin = random.sign() * random.log_uniform(1e-3, 0.3) * size;
-        let wrench = narrow(&Case::new(point, normal, random.force(&normal, least, 1.0), spin).wrench);
+        let wrench = number::<f32>(&Case::new(point, normal, random.force(&normal, least, 1.0), spin).wrench);
         let push = ForceLine::new(&wrench, ForceLine::least_squared()).unwrap();
         if shape.sole_soft_contact(&push).is_none() {
             left.push(wrench);

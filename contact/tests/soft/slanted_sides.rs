@@ -20,7 +20,7 @@ fn steep(random: &mut Random, surface: &impl SmoothSurface<f64>, size: f64, spin
     Case::new(point, normal, force, spin)
 }
 
-fn number<T: Real>(wrench: &Wrench<f64>) -> Wrench<T> {
+pub(crate) fn number<T: Real>(wrench: &Wrench<f64>) -> Wrench<T> {
     Wrench::on_fingertip(wrench.force().map(T::literal), wrench.torque().map(T::literal))
 }
 

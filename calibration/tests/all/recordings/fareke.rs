@@ -10,6 +10,7 @@ use fingertip_calibration::report::{Exclusion, Mistake, Report};
 use fingertip_test_support::recording;
 
 use super::common;
+use crate::mistakes::with;
 
 const GRAM_FORCE: f64 = 9.80665e-3;
 
@@ -91,19 +92,11 @@ fn transposition_is_noticed() {
         let Some(table) = cell(number, "0") else { return };
         let tared = table.tared_by_group().unwrap();
         let calibration = calibrate(&table, &options()).unwrap();
-        let mut file = calibration.to_file().unwrap();
+        let file = calibration.to_file().unwrap();
         let right = Report::of_check(&file, &tared, &Limits::default(), None).unwrap();
         assert!(right.suspicions.is_empty(), "{right}");
-        // As a user would: the matrix in counts per newton, rows and columns exchanged.
-        let mut sensitivities = file.matrix.clone();
-        for (mut column, nominal) in sensitivities.column_iter_mut().zip(&file.nominal) {
-            column /= *nominal;
-        }
-        file.matrix = sensitivities.transpose();
-        for (mut column, nominal) in file.matrix.column_iter_mut().zip(&file.nominal) {
-            column *= *nominal;
-        }
-        let wrong = Report::of_check(&file, &tared, &Limits::default(), None).unwrap();
+        let transposed = with(&file, |matrix| matrix.transpose());
+        let wrong = Report::of_check(&transposed, &tared, &Limits::default(), None).unwrap();
         assert_eq!(wrong.suspicions[0].mistake, Mistake::Transposed, "{wrong}");
         assert_eq!(wrong.verdict, Verdict::Bad);
         println!("cell {number}: {}", wrong.suspicions[0]);

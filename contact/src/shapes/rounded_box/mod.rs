@@ -16,10 +16,11 @@ use super::plane::on_plane;
 use super::sphere::on_sphere;
 use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger, steady_levers, told};
 use crate::soft_finger::double::{finely, is_steady as is_steady_at, narrow, widened};
+use crate::soft_finger::resolve::mirrored;
 use crate::{GeometrySensitivity, Search, SoftContact, newton_soft_contacts};
 
 /// The contact by the closed forms of all faces, edges and corners: that of which the place is on its own part, or by rounding
-/// beside it; and how far beside, as a share of the rounding.
+/// beside it, and how far.
 #[cold]
 #[inline(never)]
 fn by_parts<T: Real>(shape: &RoundedBox<T>, wrench: &Wrench<T>) -> Option<(SoftContact<T>, T)> {
@@ -43,7 +44,7 @@ fn by_parts<T: Real>(shape: &RoundedBox<T>, wrench: &Wrench<T>) -> Option<(SoftC
             best = Some((found, off));
         }
     }
-    best.map(|(found, off)| (found, off / rounding)).filter(|(_, off)| *off <= T::EPSILON.root())
+    best.filter(|(_, off)| *off <= T::EPSILON.root() * rounding)
 }
 
 /// On the whole plane, cylinder or ball of the part on this side of the core (−1, 0 or 1 along each axis).
@@ -70,17 +71,19 @@ fn on_part<T: Real>(
     on_sphere(&Sphere::new(centre, rounding).ok()?, wrench, T::EPSILON).ok()
 }
 
-/// By all parts, and where rounding decides between them, by Newton's method first: that goes to and fro where a contact is next
-/// to a seam, at which the curvature jumps. `epsilon` is that of the type in which the wrench was
-/// told: a pure force that presses by no more than it grazes, as on a sphere.
+/// By the closed form of the part that the contact lies on: under a large spin torque Newton's method goes to and fro between
+/// parts, since the curvature jumps at their seams. At flat angles, and where rounding puts the contact beside its part, by
+/// Newton's method, and if that does not settle, on the part that it is beside.
+///
+/// `epsilon` is that of the type in which the wrench was told: a pure force that presses by no more than rounding of it grazes,
+/// as on a sphere.
 fn search<T: Real>(
     shape: &RoundedBox<T>,
     wrench: &Wrench<T>,
     last: Option<&Vector3<T>>,
     epsilon: T,
 ) -> Result<SoftContact<T>, Search<T>> {
-    let by_parts = |wrench: &Wrench<T>| by_parts(shape, wrench);
-    let on_part = by_parts(wrench);
+    let on_part = by_parts(shape, wrench);
     if let Some((contact, off)) = on_part
         && off.is_zero()
         && is_steady_at(wrench, shape.rounding() * T::literal(1e4))(&contact)
@@ -95,16 +98,14 @@ fn search<T: Real>(
     if search != Search::Incomplete {
         return Err(search);
     }
-    let (force, torque) = (wrench.force(), wrench.torque());
     let (found, _) = on_part.ok_or(search)?;
+    let force = wrench.force();
     let least = epsilon * T::literal(4.0) * length(&force);
-    if -force.dot(&found.normal) > least || !is_pure_force_of(&force, &torque, epsilon) {
+    if -force.dot(&found.normal) > least || !is_pure_force_of(&force, &wrench.torque(), epsilon) {
         return Ok(found);
     }
-    // The other of the pair is the contact of the wrench with the opposite torque along the force.
-    let twice = force * ((force.dot(&torque) + force.dot(&torque)) / force.norm_squared());
-    let other = by_parts(&Wrench::on_fingertip(force, torque - twice));
-    Err(Search::Grazing([found.point, other.map_or(found.point, |(other, _)| other.point)]))
+    let (other, _) = by_parts(shape, &mirrored(wrench)).unwrap_or((found, T::zero()));
+    Err(Search::Grazing([found.point, other.point]))
 }
 
 /// In double precision if the type is narrower: where the closed forms do not answer, the spin torque rules or the force
