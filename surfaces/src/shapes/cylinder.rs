@@ -36,6 +36,8 @@ pub struct Cylinder<T: Real> {
     radius: T,
     curvature: T,
     half_length: Option<T>,
+    /// How far from the centre, along the axis, a place is active and surely in the range of the type \[m\].
+    reach: T,
 }
 
 impl<T: Real> Cylinder<T> {
@@ -47,12 +49,14 @@ impl<T: Real> Cylinder<T> {
     /// positive finite length.
     pub fn new(centre: Vector3<T>, axis: Vector3<T>, radius: T) -> Result<Self, BadShape> {
         let radius = BadShape::check_length("cylinder", "radius", radius)?;
+        let centre = BadShape::check_point("cylinder", "centre", centre)?;
         Ok(Self {
-            centre: BadShape::check_point("cylinder", "centre", centre)?,
+            centre,
             axis: BadShape::check_direction("cylinder", "axis", axis)?,
             radius,
             curvature: T::one() / radius,
             half_length: None,
+            reach: reach(&centre, radius),
         })
     }
 
@@ -61,10 +65,9 @@ impl<T: Real> Cylinder<T> {
     /// # Errors
     /// [`BadShape`] unless it is a positive finite length.
     pub fn with_half_length(self, half_length: T) -> Result<Self, BadShape> {
-        Ok(Self {
-            half_length: Some(BadShape::check_length("cylinder", "half length", half_length)?),
-            ..self
-        })
+        let half_length = BadShape::check_length("cylinder", "half length", half_length)?;
+        let reach = reach(&self.centre, self.radius).min(half_length);
+        Ok(Self { half_length: Some(half_length), reach, ..self })
     }
 
     /// A point of the axis, the middle of the active part \[m\].
@@ -145,6 +148,12 @@ impl<T: Real> Cylinder<T> {
     }
 }
 
+/// How far along the axis a place is surely in the range of the type \[m\]: none of its components, nor their sum, is
+/// then beyond. Negative for a shape that is itself at the end of the range.
+fn reach<T: Real>(centre: &Vector3<T>, radius: T) -> T {
+    T::GREATEST * T::literal(0.125) - centre.amax() - radius
+}
+
 impl<T: Real> ActiveSurface<T> for Cylinder<T> {
     #[inline]
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
@@ -202,8 +211,8 @@ impl<T: Real> Shortcuts<T> for Cylinder<T> {
     /// n = (q f_⊥ × a − s f_⊥)/|f_⊥|²,   s = −f·n = √(|f_⊥|² − q²),   z = (m·(a × f) − R f_a s)/|f_⊥|²
     /// ```
     ///
-    /// What is tangential is `√(f_a² + q²)`, to the last digits even where that is small. No contact if the force
-    /// is parallel to the axis.
+    /// What is tangential is `√(f_a² + q²)`, to the last digits even where that is small. `None` if the force is
+    /// parallel to the axis, and beyond what is active or the range of the type.
     #[inline(always)]
     fn sole_entry(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
         let (force, torque) = (push.force(), push.torque_about(&self.centre));
@@ -217,25 +226,22 @@ impl<T: Real> Shortcuts<T> for Cylinder<T> {
         let pressing_squared = squared - turning * turning;
         // What is left across the axis of a force that is parallel to it is noise.
         let least_squared = push.squared() * (T::EPSILON * T::EPSILON * T::literal(16.0));
-        (pressing_squared >= T::zero() && squared > least_squared).then(
-            #[inline(always)]
-            || {
-                let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
-                let normal = (aside * -turning - across * pressing) * inverse;
-                let height = (torque.dot(&aside) - self.radius * along * pressing) * inverse;
-                Entry {
-                    point: self.centre + normal * self.radius + self.axis * height,
-                    normal,
-                    incidence_squared: pressing_squared * inverse_force,
-                    parts: Some(ForceParts {
-                        normal: pressing,
-                        tangential: (along * along + turning * turning).root(),
-                    }),
-                    active: self.is_active(height),
-                }
-                .within_range()
-            },
-        )
+        if !(pressing_squared >= T::zero() && squared > least_squared) {
+            return None;
+        }
+        let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
+        let normal = (aside * -turning - across * pressing) * inverse;
+        let height = (torque.dot(&aside) - self.radius * along * pressing) * inverse;
+        (height.abs() <= self.reach).then_some(Entry {
+            point: self.centre + normal * self.radius + self.axis * height,
+            normal,
+            incidence_squared: pressing_squared * inverse_force,
+            parts: Some(ForceParts {
+                normal: pressing,
+                tangential: (along * along + turning * turning).root(),
+            }),
+            active: true,
+        })
     }
 
     fn surface_residual(&self, point: &Vector3<T>) -> T {
@@ -282,4 +288,39 @@ stored! {
     Cylinder::new(centre_m, axis, radius_m).and_then(|cylinder| {
         half_length_m.map_or(Ok(cylinder), |half| cylinder.with_half_length(half))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use fingertip_wrench::Line;
+    use nalgebra::Vector3;
+
+    use super::Cylinder;
+    use crate::{ActiveSurface, ForceLine, Shortcuts};
+
+    fn told_at(cylinder: &Cylinder<f64>, height: f64) -> bool {
+        let line = Line { point: Vector3::new(0.02, 0.0, height), direction: -Vector3::x() };
+        cylinder.shortcuts().sole_entry(&ForceLine::along(&line)).is_some()
+    }
+
+    #[test]
+    fn the_short_way_reaches_as_far_as_the_last_half_length() {
+        let unbounded = Cylinder::new(Vector3::zeros(), Vector3::z(), 0.01).unwrap();
+        assert!(told_at(&unbounded, 0.03) && told_at(&unbounded, -1e6));
+        let short = unbounded.with_half_length(0.02).unwrap();
+        assert!(told_at(&short, 0.019) && told_at(&short, -0.019));
+        assert!(!told_at(&short, 0.021) && !told_at(&short, -0.021));
+        let longer = short.with_half_length(0.04).unwrap();
+        assert!(told_at(&longer, 0.03) && !told_at(&longer, 0.041));
+    }
+
+    #[test]
+    fn the_short_way_tells_no_place_beyond_the_range() {
+        let unbounded = Cylinder::new(Vector3::new(1e300, 0.0, 0.0), Vector3::z(), 1e300).unwrap();
+        assert!(!told_at(&unbounded, 1e308));
+        assert!(told_at(&unbounded, 1e290));
+        // So large that no height is sure to be in range.
+        let huge = Cylinder::new(Vector3::repeat(1e308), Vector3::z(), 1e307).unwrap();
+        assert!(!told_at(&huge, 0.0));
+    }
 }
