@@ -211,7 +211,7 @@ fn selected(terms: &Terms, mut order: Vec<usize>) -> Terms {
 mod tests {
     use alloc::collections::BTreeSet;
 
-    use super::products;
+    use super::{PARTS, parts, products};
 
     /// Of up to eight gauges all products of two and of three signals, each once; of more gauges those of three of which
     /// two are the same.
@@ -235,6 +235,29 @@ mod tests {
                 }
             }
             assert_eq!(distinct, expected, "{gauges} gauges");
+        }
+    }
+
+    /// Samples of one case are in one part, and no part is much larger than another; three cases are too few.
+    #[test]
+    fn cases_are_parted_evenly() {
+        for count in [0, 1, 3] {
+            let cases: Vec<usize> =
+                (0..30).map(|sample| if count == 0 { 0 } else { sample % count }).collect();
+            assert_eq!(parts(&cases), None, "{count}");
+        }
+        for count in [4, 9, 10, 25] {
+            // Cases need not be numbered from nought.
+            let cases: Vec<usize> = (0..200).map(|sample| 7 + 3 * (sample % count)).collect();
+            let parts = parts(&cases).unwrap();
+            assert_eq!(parts.len(), 200);
+            let pairs: BTreeSet<(usize, usize)> = cases.iter().copied().zip(parts.iter().copied()).collect();
+            assert_eq!(pairs.len(), count, "{count}");
+            let mut sizes = vec![0; PARTS.min(count)];
+            pairs.iter().for_each(|(_, part)| sizes[*part] += 1);
+            assert!(
+                sizes.iter().all(|size| (count / sizes.len()..=count.div_ceil(sizes.len())).contains(size))
+            );
         }
     }
 }

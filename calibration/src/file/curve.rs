@@ -183,6 +183,22 @@ mod tests {
         file
     }
 
+    /// The hot path has six components, and none of them may be made up.
+    #[test]
+    fn a_sensor_of_fewer_axes_has_no_curved_inverse() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(15);
+        let three = CalibrationFile {
+            axes: vec![crate::Axis::Fx, crate::Axis::Fy, crate::Axis::Fz],
+            nominal: vec![10.0; 3],
+            matrix: sensor(&mut random, 7, 3),
+            quadratic: None,
+            curve: None,
+            ..file()
+        };
+        let said = three.curved_inverse_in::<f64, 7>().unwrap_err();
+        assert!(matches!(said, FileError::NotSixAxes { found: 3 }), "{said}");
+    }
+
     #[test]
     fn text_gives_back_the_very_same() {
         let file = file();

@@ -191,6 +191,19 @@ mod tests {
         assert!(error.to_string().contains("`version`"));
     }
 
+    /// Whatever it says of itself: this one says that it is bad.
+    #[test]
+    fn what_has_no_checksum_is_unchecked() {
+        let unsealed: String = text()
+            .lines()
+            .filter(|line| !line.starts_with("checksum"))
+            .map(|line| format!("{line}\n"))
+            .collect();
+        let file = CalibrationFile::from_toml(&unsealed).unwrap();
+        assert_eq!(file.quality.verdict, Verdict::Unchecked);
+        assert_eq!(file.quality.reasons, ["gauge 3 saturated", "", super::UNSEALED]);
+    }
+
     #[test]
     fn wrong_checksum_tells_both() {
         let edited = text().replacen("reference_celsius = 22.5", "reference_celsius = 22.0", 1);

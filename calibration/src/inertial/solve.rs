@@ -205,3 +205,30 @@ fn correlated(scores: &[Unknowns]) -> Square {
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt as _, SeedableRng as _};
+
+    use super::{LAGS, Square, Unknowns, correlated};
+
+    /// Newey and West's covariance of a sum, by its definition: all pairs of rows, weighted by how far they are apart.
+    #[test]
+    fn scores_hang_together_with_their_neighbours() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(21);
+        for rows in [1, 9, 10, 35, 400] {
+            let scores: Vec<Unknowns> =
+                (0..rows).map(|_| Unknowns::from_fn(|_, _| random.random_range(-1.0..1.0))).collect();
+            let reach = LAGS.min(rows / 10) as f64 + 1.0;
+            let mut expected = Square::zeros();
+            for (t, one) in scores.iter().enumerate() {
+                for (u, other) in scores.iter().enumerate() {
+                    let weight = (1.0 - t.abs_diff(u) as f64 / reach).max(0.0);
+                    expected += one * other.transpose() * weight;
+                }
+            }
+            let error = (correlated(&scores) - expected).amax();
+            assert!(error <= 1e-12 * expected.amax(), "{rows}: {error:e}");
+        }
+    }
+}

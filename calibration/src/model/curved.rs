@@ -29,7 +29,6 @@ pub(crate) fn with_chosen_terms(
     let bad =
         |message: &str| CalibrationError::BadOption { option: "curvature", message: message.to_owned() };
     options.check_curvature()?;
-    options.curvature = Curvature::Straight;
     let many = table.samples() > MOST_SAMPLES;
     let table = &*match many {
         true => Cow::Owned(table.rows(&spread(table.samples(), MOST_SAMPLES))),

@@ -373,4 +373,23 @@ mod tests {
         let (_, _, found) = residuals.most_extreme().unwrap();
         assert!(residuals.is_sure_of(found), "{found}");
     }
+
+    /// With fewer than three degrees of freedom whatever is left is shared among all, and names none.
+    #[test]
+    fn nothing_stands_out_of_too_few() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(12);
+        let mut of = |samples: usize| {
+            let design = gaussian_matrix(&mut random, samples, 4);
+            let responses = &design * sensor(&mut random, 4, 3) + gaussian_matrix(&mut random, samples, 3);
+            Residuals::following(&design, &responses, None, (0..samples).collect(), samples, None)
+        };
+        assert!(of(6).is_none());
+        let mut residuals = of(8).unwrap();
+        for left in [8, 7] {
+            assert_eq!(residuals.left(), left);
+            let (row, _, _) = residuals.most_extreme().unwrap();
+            assert!(residuals.remove(row));
+        }
+        assert!(residuals.left() == 6 && residuals.most_extreme().is_none());
+    }
 }

@@ -5,8 +5,8 @@ use core::num::NonZero;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
 use fingertip_calibration::design::{
-    Assessment, ContactWeight, Criterion, Decoupling, DesignSpace, LoadedTube, Material, NominalLoads,
-    Search, TubeSpace, TubeTheory, Wall, gram, search,
+    Assessment, ContactWeight, Coordinate, Criterion, Decoupling, DesignError, DesignSpace, GaugeRule,
+    LoadedTube, Material, NominalLoads, Parameter, Search, TubeSpace, TubeTheory, Wall, gram, search,
 };
 use nalgebra::{DMatrix, Vector6};
 use rand::{RngExt as _, SeedableRng as _};
@@ -261,6 +261,15 @@ fn refuses_searches_that_make_no_sense() {
         TubeSpace::bicchi_dario((2e-3, 15e-3), degrees(1.0, 59.0), (2e-3, 40e-3), heavy, wall).unwrap();
     let how = Search { starts: 2, ..Search::default() };
     assert!(search(&space, &Criterion::Trace, &loads(), &how, &|_| ()).is_err());
+    // Of a radius that is settled it is said at once.
+    let gauges = (0..6).map(|k| GaugeRule {
+        z: Coordinate::fixed(0.0),
+        theta: Coordinate::fixed(f64::from(k) * 60_f64.to_radians()),
+        q: Coordinate::following(0, if k % 2 == 0 { 1.0 } else { -1.0 }),
+    });
+    let turned = vec![Parameter::angle("Q", 0.0, 1.0)];
+    let fixed = TubeSpace::new(turned, Coordinate::fixed(5e-3), gauges.collect(), heavy, wall);
+    assert!(matches!(fixed, Err(DesignError::WallTooThick { .. })), "{fixed:?}");
 }
 
 /// The paper's gauges turned the other way are another sensor: for 30 N and 0.1 N·m the better one.

@@ -2,7 +2,7 @@
 
 use fingertip_calibration::page::Figure;
 use fingertip_calibration::report::{Outlier, Report, SampleReport};
-use fingertip_test_support::read_back::{Ruler, Text, assert_readable, points, rulers, texts};
+use fingertip_test_support::read_back::{Ruler, Text, assert_readable, paths, points, rulers, texts};
 
 use super::report_forms::report;
 
@@ -57,6 +57,16 @@ fn points_are_where_the_axes_say() {
                 near(up, y, error);
             }
         }
+        // A line where there is no error, from edge to edge.
+        let least = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let is_zero = |line: &[(f64, f64)]| {
+            let (Some(from), Some(to)) = (line.first(), line.last()) else { return false };
+            let level = [from, to].iter().all(|end| up.at(end.1).abs() <= 2.0 * up.error());
+            level && across.at(from.0) < least && across.at(to.0) > most
+        };
+        let lines = paths(&figure.svg).into_iter().filter(|path| path.class == "axis");
+        assert!(lines.flat_map(|path| path.pieces).any(|line| is_zero(&line)), "{}", figure.svg);
         // A twentieth of the range beyond the outermost loads, a tenth beyond the greatest error.
         assert!(figure.svg.contains(&format!("{ends}\"")), "{}", figure.svg);
         assert!(figure.svg.contains("data-y=\"error / % of full scale;-5.50000;5.50000\""), "{}", figure.svg);

@@ -142,6 +142,54 @@ fn errors_of_a_plane_are_as_stated() {
     }
 }
 
+/// Of pivots that lie off every plane by more than the noise of wrenches explains, the spread is what they show, not
+/// what the wrenches say.
+#[test]
+fn pivots_that_lie_on_no_plane_say_so_of_it() {
+    let random = &mut Pcg64Mcg::seed_from_u64(64);
+    let spread = |random: &mut Pcg64Mcg, off: f64| {
+        let pivots: Vec<Vec<_>> = (0..8)
+            .map(|i| {
+                let angle = core::f64::consts::TAU * f64::from(i) / 8.0;
+                // One up, one down: no plane goes nearer.
+                let height = 0.01 + if i % 2 == 0 { off } else { -off };
+                let point = Vector3::new(0.006 * angle.cos(), 0.006 * angle.sin(), height);
+                let wrenches: Vec<_> = (0..9).map(|_| pressed(random, point, Vector3::z()).wrench).collect();
+                wrenches.iter().map(|wrench| noisy(random, wrench)).collect()
+            })
+            .collect();
+        fit_plane(&pivots, &Vector3::z(), &WrenchNoise::exact_forces()).unwrap()
+    };
+    let flat = spread(random, 0.0);
+    // Eight heights of ±1 mm, of which three say where the plane is: the mean is known to 1 mm/√5.
+    let rough = spread(random, 1e-3);
+    assert_eq!(rough.freedom, 5.0);
+    let [offset, ..] = rough.deviations[..] else { panic!() };
+    assert!((offset / (1e-3 / 5.0_f64.sqrt()) - 1.0).abs() < 0.1, "{offset:e}");
+    assert!(flat.deviations[0] < 0.05 * offset && flat.freedom > 100.0, "{:e}", flat.deviations[0]);
+}
+
+/// Normals that point into the fingertip ask for a radius below zero, which is said as it is.
+#[test]
+fn normals_the_wrong_way_round_are_named() {
+    let random = &mut Pcg64Mcg::seed_from_u64(65);
+    let noise = WrenchNoise::exact_forces();
+    let ask = |error: GeometryError| {
+        let said = error.to_string();
+        assert!(said.contains("radius: the torques ask for -13.00 mm"), "{said}");
+    };
+    let turned = |touches: Vec<ShapeTouch>| -> Vec<ShapeTouch> {
+        touches.iter().map(|touch| ShapeTouch { normal: -touch.normal, ..*touch }).collect()
+    };
+    let ball = touches(random, 20, None, |n| CENTRE + n * 0.013);
+    let inward = turned(ball);
+    ask(fit_sphere(&inward, &noise).unwrap_err());
+    ask(fit_aligned_ellipsoid(&inward, &noise).unwrap_err());
+    ask(fit_ellipsoid(&inward, &noise).unwrap_err());
+    let rod = touches(random, 20, Some(Vector3::z()), |n| CENTRE + n * 0.013);
+    ask(fit_cylinder_along(&turned(rod), &Vector3::z(), &noise).unwrap_err());
+}
+
 /// The same load in other units, its frame turned and moved.
 #[derive(Clone, Copy)]
 struct Change {
