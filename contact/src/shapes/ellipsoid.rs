@@ -40,20 +40,23 @@ pub(super) fn on_ellipsoid<T: Real>(
     let f = wrench.force().component_mul(&b);
     let m = wrench.torque().component_mul(&(across(&b) * unit));
     let scale = taming_factor(larger(largest(&f), largest(&m)));
-    let loads = [wrench.force() * scale, wrench.torque() * unit * scale];
+    let [force, torque] = [wrench.force() * scale, wrench.torque() * unit * scale];
+    let (f, m) = (f * scale, m * scale);
     let solved = if epsilon == T::EPSILON {
-        finely(&(semi_axes * unit), loads)
+        finely(&(semi_axes * unit), [force, torque])
     } else {
-        let [force, torque] = loads;
-        let (f, m) = (f * scale, m * scale);
         // As on the sphere: what is exactly zero before stretching shall be so after it.
         let power = force.dot(&torque) * (b.x * b.y * b.z);
-        OnUnitSphere::new(&f, &m, f.norm_squared(), power).unless_grazing(&f, &m, epsilon)
+        OnUnitSphere::new(&f, &m, f.norm_squared(), power)
     };
-    let solved = solved.map_err(|pair| pair.map(|point| point.component_mul(&semi_axes)))?;
     let point = solved.point();
     let gradient = point.component_mul(&b);
     let steepness = gradient.norm_squared().root();
+    // `h = f·c` of the stretched force is that part of the force itself along the normal, times the steepness.
+    let whole = steepness * force.norm_squared().root();
+    let solved = solved
+        .unless_grazing(&f, &m, whole, epsilon)
+        .map_err(|pair| pair.map(|point| point.component_mul(&semi_axes)))?;
     let volume = (semi_axes.x * unit) * (semi_axes.y * unit) * semi_axes.z;
     Ok(SoftContact {
         point: point.component_mul(&semi_axes),
@@ -64,10 +67,7 @@ pub(super) fn on_ellipsoid<T: Real>(
 }
 
 /// On the unit sphere, stretched with twice the digits.
-fn finely<T: Real>(
-    semi_axes: &Vector3<T>,
-    [force, torque]: [Vector3<T>; 2],
-) -> Result<OnUnitSphere<T>, [Vector3<T>; 2]> {
+fn finely<T: Real>(semi_axes: &Vector3<T>, [force, torque]: [Vector3<T>; 2]) -> OnUnitSphere<T> {
     let [bx, by, bz] = <[T; 3]>::from(*semi_axes).map(|a| Twofold::new(T::one()).over(a));
     let (force, torque) = (exactly(&force), exactly(&torque));
     let (xy, power) = (bx.times(by), dot(force, torque));

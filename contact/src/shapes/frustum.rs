@@ -12,7 +12,7 @@ use super::slanted_side::SlantedSide;
 use crate::model::flat;
 use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double::{finely, is_steady};
-use crate::soft_finger::edge::surely_on_side;
+use crate::soft_finger::edge::{surely_beyond_side, surely_on_side};
 use crate::soft_finger::rim::on_rim;
 use crate::soft_finger::sure_rim::{Rim, surely_on_rim};
 use crate::soft_finger::tip::{is_found_anew, surely_on_cone};
@@ -191,12 +191,16 @@ fn surely_on_frustum<T: Real>(
     };
     let side = || (side_of_frustum(shape, &base), tip());
     let found = surely_on_cone(wrench, shape, pose, side, |point| is_between_ends(shape, point), found);
-    surely_beside_edges(shape, wrench, pose, found)
+    surely_beside_edges(shape, (base, [0.0, shape.height().to_f64()]), wrench, pose, found)
 }
 
 /// The same where rounding decides between the side and an edge, or where on an edge the contact is.
+///
+/// Of the axis that point is told which the shape states, and the heights of the ends over it: the base of a capped cylinder
+/// is rounded, and what rounds here may be multiplied by 1e13.
 fn surely_beside_edges<T: Real>(
     solid: &Frustum<T>,
+    (middle, ends): (Vector3<T>, [f64; 2]),
     wrench: &Wrench<T>,
     pose: Option<&RigidTransform<T>>,
     found: Result<SoftContact<T>, Search<T>>,
@@ -204,20 +208,29 @@ fn surely_beside_edges<T: Real>(
     if !is_found_anew::<T>() {
         return found;
     }
-    let side = side_of_frustum(solid, &solid.base_centre());
+    let side = side_of_frustum(solid, &middle);
     let (on_edge, between) =
         (|point: &Vector3<T>| is_on_edge(solid, point), |point: &Vector3<T>| is_between_ends(solid, point));
     let found = surely_on_side(wrench, pose, side, on_edge, between, found)?;
     let inside = pose.map_or(found.point, |pose| point_inside(pose, &found.point));
+    let above = (inside - solid.base_centre()).dot(&solid.axis());
+    let is_above = above > solid.height() * T::literal(0.5);
+    let (along, radius, room) = if is_above {
+        (ends[1], solid.top_radius(), solid.height() - above)
+    } else {
+        (ends[0], solid.base_radius(), above)
+    };
+    let rim = Rim { origin: wide(&middle), axis: wide(&solid.axis()), along, radius: radius.to_f64() };
     if !is_on_edge(solid, &inside) {
-        return Ok(found);
+        return Ok(surely_beyond_side(wrench, pose, side, between, (room.to_f64(), rim), found));
     }
-    let is_above = (inside - solid.base_centre()).dot(&solid.axis()) > solid.height() * T::literal(0.5);
-    let (height, radius) =
-        if is_above { (solid.height(), solid.top_radius()) } else { (T::zero(), solid.base_radius()) };
-    let axis = wide(&solid.axis());
-    let centre = wide(&solid.base_centre()) + axis * (height.to_f64() / axis.norm());
-    Ok(surely_on_rim(wrench, pose, &Rim { centre, axis, radius: radius.to_f64() }, found))
+    Ok(surely_on_rim(wrench, pose, &rim, found))
+}
+
+/// The centre that a capped cylinder states, and the heights of its ends over it.
+fn middle_and_ends<T: Real>(shape: &CappedCylinder<T>) -> (Vector3<T>, [f64; 2]) {
+    let half = shape.half_length().to_f64();
+    (shape.centre(), [-half, half])
 }
 
 fn capped_in_double<T: Real>(
@@ -291,7 +304,7 @@ soft_finger!(
         let solid = shape.solid();
         let found =
             on_frustum_finely(solid, wrench, on_straight_side, |wrench| capped_in_double(shape, wrench));
-        told(surely_beside_edges(solid, wrench, None, found), visit)
+        told(surely_beside_edges(solid, middle_and_ends(shape), wrench, None, found), visit)
     },
     sole | shape,
     push | steeply_on_frustum(shape.solid(), push),
@@ -300,11 +313,11 @@ soft_finger!(
     surely | shape,
     wrench,
     pose,
-    found | surely_beside_edges(shape.solid(), wrench, pose, found),
+    found | surely_beside_edges(shape.solid(), middle_and_ends(shape), wrench, pose, found),
     patch | shape,
     point | {
-        let half = shape.half_length().to_f64();
-        Some(solid_patch(shape.solid(), point, &shape.centre(), [-half, half]))
+        let (middle, ends) = middle_and_ends(shape);
+        Some(solid_patch(shape.solid(), point, &middle, ends))
     },
     sizes | shape,
     size,

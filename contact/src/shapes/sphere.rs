@@ -33,8 +33,9 @@ pub(super) fn on_sphere<T: Real>(
     let scale = taming_factor(larger(largest(&wrench.force()), largest(&lever)));
     let (f, m) = (wrench.force() * scale, lever * scale);
     let power = f.dot(&(wrench.torque() * scale)) * curvature;
-    let solved = OnUnitSphere::new(&f, &m, f.norm_squared(), power)
-        .unless_grazing(&f, &m, epsilon)
+    let squared = f.norm_squared();
+    let solved = OnUnitSphere::new(&f, &m, squared, power)
+        .unless_grazing(&f, &m, squared.root(), epsilon)
         .map_err(|pair| pair.map(|point| point * radius + centre))?;
     let normal = solved.point();
     Ok(SoftContact {

@@ -224,3 +224,10 @@ pub(crate) fn is_pure_force_of<T: Real>(force: &Vector3<T>, torque: &Vector3<T>,
     // Half a unit in the last place of every number, and as much in three products and two sums.
     !(power > largest(force) * largest(torque) * epsilon * T::literal(8.0))
 }
+
+/// Whether a wrench has surely a torque along its force, even if each of its numbers were off by 16 units in the last place:
+/// where force and torque are along different axes, [`is_pure_force_of`] takes a wrench for a pure force that is none.
+pub(crate) fn is_surely_twisted(force: &Vector3<f64>, torque: &Vector3<f64>, epsilon: f64) -> bool {
+    let products = force.component_mul(torque);
+    products.sum().abs() > 32.0 * epsilon * products.abs().sum()
+}

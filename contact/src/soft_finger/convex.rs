@@ -83,8 +83,10 @@ impl<T: Real, S: SmoothSurface<T>> Problem<'_, T, S> {
 /// The place where the unit sphere's closed form would put the contact, seen from the centre: a
 /// start that is good where the spin torque rules, and exact on a sphere.
 pub(crate) fn direction_on_ball<T: Real>(force: &Vector3<T>, torque: &Vector3<T>) -> Vector3<T> {
-    let solved = OnUnitSphere::new(force, torque, force.norm_squared(), force.dot(torque));
-    solved.grazing(force, torque, T::EPSILON).map_or_else(|| solved.point(), |[point, _]| point)
+    let squared = force.norm_squared();
+    OnUnitSphere::new(force, torque, squared, force.dot(torque))
+        .unless_grazing(force, torque, squared.root(), T::EPSILON)
+        .map_or_else(|[point, _]| point, |solved| solved.point())
 }
 
 #[cfg(test)]

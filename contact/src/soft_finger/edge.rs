@@ -7,7 +7,8 @@ use nalgebra::Vector3;
 
 use super::patch::Digits;
 use super::placed::placed;
-use super::refined::settled_on;
+use super::refined::{answers, rounding_moves, scaled, settled_on};
+use super::sure_rim::{Rim, next_to_rim};
 use super::three::rounded;
 use super::tip::is_found_anew;
 use crate::{Search, SoftContact};
@@ -52,4 +53,31 @@ pub(crate) fn surely_on_side<T: Real>(
     let is_there =
         |contact: &SoftContact<T>| holds(&patch.point_inside(&wide(&contact.point)).map(T::literal));
     Ok(settled.filter(is_there).unwrap_or(contact))
+}
+
+/// What a search says of a solid with a straight side, found anew with twice the digits where it is on the side, and rounding
+/// may have moved it there from beyond an end: then it is on the edge.
+///
+/// The other way round than [`surely_on_side`]. `room` is how far the contact is from the nearer end, and `rim` that edge.
+pub(crate) fn surely_beyond_side<T: Real>(
+    wrench: &Wrench<T>,
+    pose: Option<&RigidTransform<T>>,
+    side: LocalSurface,
+    holds: impl Fn(&Vector3<T>) -> bool,
+    (room, rim): (f64, Rim),
+    contact: SoftContact<T>,
+) -> SoftContact<T> {
+    let Some(patch) = placed(side.into(), pose) else { return contact };
+    let (point, normal) = (wide(&contact.point), wide(&contact.normal));
+    let (scale, [force, torque]) = scaled(wrench);
+    let seen = patch.seen::<f64>(point.into());
+    let (strength, spin) = (force.norm(), contact.spin_torque.to_f64().abs() * scale);
+    let answers = answers(seen.curvatures, spin, strength, -force.dot(&normal) / strength);
+    let moved = rounding_moves(T::EPSILON.to_f64(), point.amax(), torque.amax(), answers);
+    if !((rounded(seen.normal) - normal).amax() <= HAIR && room <= moved) {
+        return contact;
+    }
+    let is_beyond = settled_on(wrench, &|_| Some(patch), &contact)
+        .is_some_and(|end| !holds(&patch.point_inside(&wide(&end.point)).map(T::literal)));
+    if is_beyond { next_to_rim(wrench, pose, &rim, &contact).unwrap_or(contact) } else { contact }
 }

@@ -84,9 +84,7 @@ fn refined_on<T: Real>(
     if steady || !(incidence >= FLATTEST) || !((Vector3::from(start) - normal).amax() <= known) {
         return *contact;
     }
-    // How far rounding of a few terms of the size of the torque does.
-    let allowed =
-        |[answer, stiffness]: [f64; 2]| 64.0 * epsilon * (reach + (m.amax() + reach * stiffness) * answer);
+    let allowed = |answers| rounding_moves(epsilon, reach, m.amax(), answers);
     let start = (point, torque);
     // Of a type that is narrow enough for it double precision has digits to spare.
     let spare = f64::EPSILON * (m.amax() + reach * stiffness) * answer <= 0.02 * epsilon * reach;
@@ -107,9 +105,14 @@ fn refined_on<T: Real>(
     }
 }
 
+/// How far rounding of a few terms of the size of the torque moves a contact, as `answers` says, at this distance.
+pub(super) fn rounding_moves(epsilon: f64, reach: f64, torque: f64, [answer, stiffness]: [f64; 2]) -> f64 {
+    64.0 * epsilon * (reach + (torque + reach * stiffness) * answer)
+}
+
 /// How far a torque moves a contact at most, and what the torques of the equations are per length of which a place is
 /// known: that of the force, and that of the normal's turn.
-fn answers(curvatures: [f64; 2], spin: f64, strength: f64, incidence: f64) -> [f64; 2] {
+pub(super) fn answers(curvatures: [f64; 2], spin: f64, strength: f64, incidence: f64) -> [f64; 2] {
     let steepest = larger(curvatures[0].abs(), curvatures[1].abs());
     let [w1, w2] = curvatures.map(|k| spin * k);
     let pressing = strength * incidence;

@@ -6,7 +6,7 @@ use fingertip_surfaces::numeric::vectors::wide;
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
-use super::placed::{Patch, placed};
+use super::placed::placed;
 use super::refined::scaled;
 use super::three::{Three, cross, dot, exactly, plus_times, rounded, unit};
 use crate::SoftContact;
@@ -15,11 +15,19 @@ use crate::SoftContact;
 /// the spin torque, a small difference there, with it.
 const HAIR: f64 = 0.02;
 
-/// A circular edge, in the frame of its shape.
+/// A circular edge, in the frame of its shape, around a point of the axis that lies so far along it from the origin: where that
+/// is, said in double precision, would be rounded already.
 pub(crate) struct Rim {
-    pub(crate) centre: Vector3<f64>,
+    pub(crate) origin: Vector3<f64>,
     pub(crate) axis: Vector3<f64>,
+    pub(crate) along: f64,
     pub(crate) radius: f64,
+}
+
+impl Rim {
+    fn centre(&self) -> Vector3<f64> {
+        self.origin + self.axis * (self.along / self.axis.norm())
+    }
 }
 
 /// A contact on an edge, found anew with twice the digits of double precision where rounding moves it along the edge.
@@ -34,28 +42,43 @@ pub(crate) fn surely_on_rim<T: Real>(
     rim: &Rim,
     contact: SoftContact<T>,
 ) -> SoftContact<T> {
-    let plane = LocalSurface::Plane { point: rim.centre, normal: rim.axis };
-    placed(plane.into(), pose).and_then(|frame| anew(wrench, &frame, rim, &contact)).unwrap_or(contact)
+    let point = wide(&contact.point);
+    let is_loose = |held: f64, [force, torque]: [Vector3<f64>; 2]| {
+        held.abs() <= (torque.norm() + force.norm() * point.norm()) * HAIR
+    };
+    anew(wrench, pose, rim, &contact, is_loose).unwrap_or(contact)
 }
 
-/// `None` where it is as found.
-fn anew<T: Real>(
+/// The contact on an edge next to one beside it. `None` if there is none.
+pub(super) fn next_to_rim<T: Real>(
     wrench: &Wrench<T>,
-    frame: &Patch,
+    pose: Option<&RigidTransform<T>>,
     rim: &Rim,
     contact: &SoftContact<T>,
 ) -> Option<SoftContact<T>> {
+    anew(wrench, pose, rim, contact, |_, _| true)
+}
+
+/// `None` where it is as found, or is not to be found anew for what the place is held by, and the load.
+fn anew<T: Real>(
+    wrench: &Wrench<T>,
+    pose: Option<&RigidTransform<T>>,
+    rim: &Rim,
+    contact: &SoftContact<T>,
+    is_loose: impl Fn(f64, [Vector3<f64>; 2]) -> bool,
+) -> Option<SoftContact<T>> {
+    let centre = rim.centre();
+    let frame = placed(LocalSurface::Plane { point: centre, normal: rim.axis }.into(), pose)?;
     let (scale, load) = scaled(wrench);
-    let point = wide(&contact.point);
-    let outward = frame.point_inside(&point) - rim.centre;
+    let from_centre = frame.point_inside(&wide(&contact.point)) - centre;
+    let outward = from_centre - rim.axis * (from_centre.dot(&rim.axis) / rim.axis.norm_squared());
     let [inside, about] = frame.load_inside::<f64>(load).map(Vector3::from);
-    let held = (about - rim.centre.cross(&inside)).dot(&outward) / outward.norm();
-    let [force, torque] = load;
-    if !(held.abs() <= (torque.norm() + force.norm() * point.norm()) * HAIR) {
+    let held = (about - centre.cross(&inside)).dot(&outward) / outward.norm();
+    if !is_loose(held, load) {
         return None;
     }
     let (arm, spin, normal) = solved(rim, frame.load_inside(load), held)?;
-    let point = frame.point_outside(&(rim.centre + arm));
+    let point = frame.point_outside(&(centre + arm));
     let normal = frame.direction_outside(&normal);
     // Anything else is another contact.
     (normal.dot(&wide(&contact.normal)) > 0.5).then(|| SoftContact {
@@ -75,7 +98,8 @@ fn solved(
 ) -> Option<(Vector3<f64>, f64, Vector3<f64>)> {
     let [one, minus, radius] = [1.0, -1.0, rim.radius].map(Twofold::new);
     let (_, axis) = unit(exactly(&rim.axis));
-    let torque = plus_times(torque, cross(exactly(&rim.centre), force), minus);
+    let centre = plus_times(exactly(&rim.origin), axis, Twofold::new(rim.along));
+    let torque = plus_times(torque, cross(centre, force), minus);
     let (length, along) = unit(plus_times(torque, axis, minus.times(dot(torque, axis))));
     let cosine = minus.times(radius).times(dot(force, axis)).divided_by(length);
     let squared = one.minus(cosine).times(one.plus(cosine));

@@ -30,8 +30,6 @@ pub(crate) struct OnUnitSphere<T: Real> {
     /// `c` times `k² + |f|²`, and the reciprocal of that.
     stretched: Vector3<T>,
     inverse: T,
-    /// `|f|²`.
-    force: T,
     /// `|m|² + |f|²`.
     squares: T,
     /// The line of action passes the sphere by or touches it.
@@ -51,20 +49,12 @@ impl<T: Real> OnUnitSphere<T> {
 
     /// The same from numbers with twice the digits. Where the force grazes `|m|` is nearly `|f|`: what rounding leaves of
     /// the digits of `σ` is divided by the square of the cosine of incidence, and all else keeps its own.
-    ///
-    /// # Errors
-    /// [`grazing`](Self::grazing): the pair of points that a pure force which misses would graze.
     #[inline(never)]
-    pub(crate) fn finely(
-        f: [Twofold<T>; 3],
-        m: [Twofold<T>; 3],
-        power: Twofold<T>,
-    ) -> Result<Self, [Vector3<T>; 2]> {
+    pub(crate) fn finely(f: [Twofold<T>; 3], m: [Twofold<T>; 3], power: Twofold<T>) -> Self {
         let (force, torque) = (dot(f, f), dot(m, m));
         let (f, m) = (Vector3::from(f.map(Twofold::value)), Vector3::from(m.map(Twofold::value)));
         let squares = [force.value(), torque.value()];
-        let solved = Self::with_difference(&f, &m, squares, torque.minus(force).value(), power.value());
-        solved.unless_grazing(&f, &m, T::EPSILON)
+        Self::with_difference(&f, &m, squares, torque.minus(force).value(), power.value())
     }
 
     /// With `|f|²` and `|m|²`, and `σ` apart from them.
@@ -82,7 +72,7 @@ impl<T: Real> OnUnitSphere<T> {
         let (spin, along) = if misses { (larger, smaller) } else { (smaller, larger) };
         let spin = spin.copysign(-power);
         let stretched = m * spin + f.cross(m) - f * along;
-        Self { spin, along, stretched, inverse, force, squares, misses }
+        Self { spin, along, stretched, inverse, squares, misses }
     }
 
     /// The same in the range that a shortcut is for: `None` where fourth powers over- or underflow,
@@ -103,28 +93,25 @@ impl<T: Real> OnUnitSphere<T> {
     }
 
     /// The pair of points that a pure force whose line misses could only graze, with equal and
-    /// opposite spin torques; the same point twice if the line touches. `None` if the force presses.
+    /// opposite spin torques; the same point twice if the line touches.
     ///
     /// The sign of `f·m` tells one point of the pair from the other. Half a unit in the last place of
     /// every component of the wrench changes `f·m` by up to `ε|f||m|`, and the sum of its products
     /// rounds about as much: below four times `ε`, that of the type in which the wrench was told, the cosine of incidence
-    /// `|h|/|f|` is zero for all that the numbers say.
-    #[inline(always)]
-    pub(crate) fn grazing(&self, f: &Vector3<T>, m: &Vector3<T>, epsilon: T) -> Option<[Vector3<T>; 2]> {
-        let least = (epsilon * T::literal(4.0)).whole_power(2) * self.force;
-        (self.misses && !(self.along * self.along > least)).then(|| self.pair(f, m))
-    }
-
+    /// is zero for all that the numbers say. `whole` is that `|h|` of which the cosine would be 1: `|f|` on the sphere itself.
+    ///
     /// # Errors
-    /// [`grazing`](Self::grazing).
+    /// The pair, where it is one.
     #[inline(always)]
     pub(crate) fn unless_grazing(
         self,
         f: &Vector3<T>,
         m: &Vector3<T>,
+        whole: T,
         epsilon: T,
     ) -> Result<Self, [Vector3<T>; 2]> {
-        self.grazing(f, m, epsilon).map_or(Ok(self), Err)
+        let presses = self.along > epsilon * T::literal(4.0) * whole;
+        if self.misses && !presses { Err(self.pair(f, m)) } else { Ok(self) }
     }
 
     #[cold]

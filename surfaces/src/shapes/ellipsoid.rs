@@ -234,7 +234,7 @@ impl<T: Real> Shortcuts<T> for Ellipsoid<T> {
         excess / (length(&gradient) * T::literal(2.0))
     }
 
-    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
+    fn entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
         entry_near(&self.in_double()?, line, near)
     }
 }

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use self::ring::{Ring, Touch};
 use self::spheres::Around;
 use self::zeros::{Doubts, MOST};
-use crate::soft_finger::closed_form::{is_pure_force_of, soft_finger};
+use crate::soft_finger::closed_form::{is_pure_force_of, is_surely_twisted, soft_finger};
 use crate::soft_finger::double::{in_type, narrow, widened};
 use crate::soft_finger::newton::Problem;
 use crate::{GeometrySensitivity, Search, SoftContact};
@@ -168,19 +168,33 @@ fn on_torus<T: Real>(
 }
 
 fn again<T: Real>(torus: &Torus<T>, wrench: &Wrench<T>, visit: &mut dyn FnMut(SoftContact<T>)) -> Search<T> {
-    in_double(torus, &widened(wrench), &mut |contact| visit(narrow(&contact)))
-        .map_or(Search::Incomplete, in_type)
+    let (wide, epsilon) = (widened(wrench), T::EPSILON.to_f64());
+    let mut told = |epsilon: f64| {
+        let mut any = false;
+        let ended = in_double(torus, &wide, epsilon, &mut |contact| {
+            any = true;
+            visit(narrow(&contact));
+        });
+        (ended, any)
+    };
+    let (mut ended, any) = told(epsilon);
+    // Numbers as they were told, which no pose has moved.
+    if !any && is_surely_twisted(&wide.force(), &wide.torque(), epsilon) {
+        (ended, _) = told(f64::EPSILON);
+    }
+    ended.map_or(Search::Incomplete, in_type)
 }
 
-/// In double precision, under a wrench of which the numbers were rounded to the narrower type.
+/// In double precision, under a wrench of which the numbers were rounded to so much of them.
 #[cold]
 #[inline(never)]
 fn in_double<T: Real>(
     torus: &Torus<T>,
     wrench: &Wrench<f64>,
+    epsilon: f64,
     visit: &mut dyn FnMut(SoftContact<f64>),
 ) -> Option<Search<f64>> {
-    let (double, epsilon) = (torus.in_double()?, T::EPSILON.to_f64());
+    let double = torus.in_double()?;
     let mut any = false;
     let ended = search(&double, wrench, epsilon, &mut |contact| {
         any = true;
@@ -231,7 +245,7 @@ soft_finger!(
     |shape, wrench, _, visit| on_torus(shape, wrench, visit),
     all in double | shape,
     wrench,
-    visit | in_double(shape, wrench, visit),
+    visit | in_double(shape, wrench, T::EPSILON.to_f64(), visit),
     patch | shape,
     _ | Some(LocalSurface::Torus { ring: shape.ring_radius().to_f64(), tube: shape.tube_radius().to_f64() }),
     sizes | shape,

@@ -4,7 +4,7 @@ mod boxes;
 mod posed;
 
 use fingertip_contact::{ContactModel, SoftFinger, SoftFingerSurface};
-use fingertip_surfaces::{Capsule, Cone, Cylinder, Frustum, Superquadric, Torus};
+use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Frustum, Superquadric, Torus};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
@@ -211,5 +211,51 @@ fn a_line_all_but_along_the_axis_of_a_cone() {
         [[-7.388_388e-9, 9.434_181e-9, 3.497_917_5e-9], [-6.788_536e-8, -2.344_911_4e-7, 4.890_535e-7]],
         [-20.015_304_057_962_062, 91.749_574_463_317_93, 41.213_727_271_881_42],
         100.0,
+    );
+}
+
+/// On an edge where the axis of its spin torque is all but square to the force.
+#[test]
+fn on_the_edge_of_a_capped_cylinder_at_a_flat_angle() {
+    let centre = Vector3::new(715.632_454_329_584_7, 233.954_519_231_402_06, -71.882_625_748_803_46);
+    let axis = Vector3::new(-0.971_532_084_558_638_7, -0.188_840_349_727_761_84, 0.143_054_992_879_811_3);
+    told(
+        Asked::Edge,
+        CappedCylinder::new(centre, axis, 361.386_227_156_026_96, 633.113_605_661_952_6).unwrap(),
+        [
+            [5.007_917_006_383_839e-5, 0.000_186_870_145_195_250_28, 0.000_521_761_342_137_113_6],
+            [0.055_210_568_244_605_93, -0.054_976_739_190_135_945, 0.014_328_207_377_224_794],
+        ],
+        [73.761_433_250_797_98, -5.330_180_222_515_253, -321.236_325_859_449_7],
+        361.0,
+    );
+}
+
+/// One that passes an ellipsoid by the rounding of its wrench, and touches but for that.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_line_that_grazes_an_ellipsoid() {
+    told(
+        Asked::Point,
+        Ellipsoid::new(Vector3::new(19.138_712_f32, 63.404_556, 32.997_673)).unwrap(),
+        [[519.5118, 32.572_144, 127.905_25], [-7_837.676_3, -2_761.791_5, 32_537.545]],
+        [0.775_700_241_859_731, -62.582_368_104_309_7, -5.125_148_886_105_851],
+        63.0,
+    );
+}
+
+/// A force that all but grazes a ring.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_soft_finger_that_grazes_a_ring() {
+    told(
+        Asked::Soft,
+        Torus::new(46.400_425_f32, 2.466_054).unwrap(),
+        [
+            [0.000_281_062_76, 7.536_252e-5, 1.165_776_7e-6],
+            [-0.000_132_525_44, 0.000_704_255_9, -0.013_578_445],
+        ],
+        [-13.782_970_534_305_825, 44.650_009_780_181_18, 2.444_074_772_076_167],
+        46.0,
     );
 }

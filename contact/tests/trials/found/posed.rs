@@ -1,6 +1,6 @@
 //! The same of shapes in poses, where moving the wrench into the frame of the shape rounds it.
 
-use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Frustum, Posed, Sphere, Torus};
+use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Ellipsoid, Frustum, Posed, Sphere, Torus};
 use fingertip_wrench::{Real, RigidTransform};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -339,5 +339,60 @@ fn a_fold_on_a_ring_in_a_pose() {
         ],
         [0.310_061_267_372_928_4, -0.047_944_630_824_066_234, -0.151_890_558_883_015_11],
         0.090_185_03,
+    );
+}
+
+/// On the side of a posed cylinder, far from where the first guess of the edge lies.
+#[test]
+fn on_the_side_of_a_capped_cylinder_in_a_pose() {
+    let axis = Vector3::new(0.974_230_628_002_192_3, -0.214_361_264_413_592_18, 0.070_170_733_083_388_52);
+    let cylinder =
+        CappedCylinder::new(Vector3::zeros(), axis, 350.955_364_157_207_67, 349.235_389_138_127_74);
+    let rotation = [
+        0.049_737_812_782_002_754_f64,
+        -0.783_472_295_686_828_1,
+        0.619_433_056_811_528_3,
+        0.933_999_402_988_309_9,
+        0.256_182_667_764_003_67,
+        0.249_029_227_109_589_05,
+        -0.353_795_513_251_855_1,
+        0.566_163_936_177_967_6,
+        0.744_504_621_996_618,
+    ];
+    let origin = [136.361_797_414_373_14, 57.163_889_532_731_93, 464.082_454_346_801_74];
+    told(
+        Asked::Soft,
+        Posed::new(cylinder.unwrap(), pose(rotation, origin)),
+        [
+            [7.434_756_030_909_559e-11, -1.479_449_151_841_072_5e-10, 1.409_143_353_558_418_6e-10],
+            [-0.000_220_001_132_252_981_76, 0.000_240_898_628_954_745_54, 0.000_369_781_147_161_918_84],
+        ],
+        [381.219_340_532_715_9, 182.132_967_403_098_2, 60.324_788_105_246_34],
+        350.0,
+    );
+}
+
+/// A pure force that all but grazes a posed ellipsoid.
+#[test]
+#[cfg_attr(not(feature = "mixed-precision"), ignore = "single precision alone does not tell")]
+fn a_force_that_grazes_an_ellipsoid_in_a_pose() {
+    let ellipsoid = Ellipsoid::new(Vector3::new(7.644_482e-5_f32, 2.291_203_8e-5, 9.225_229_6e-5));
+    let rotation = [
+        -0.477_969_7_f32,
+        -0.717_696_7,
+        -0.506_415_3,
+        -0.150_899_83,
+        0.635_056_1,
+        -0.757_583_9,
+        0.865_317_4,
+        -0.285_684_3,
+        -0.411_837_76,
+    ];
+    told(
+        Asked::Soft,
+        Posed::new(ellipsoid.unwrap(), pose(rotation, [6.223_624e-6, 6.533_998_4e-5, 7.950_631e-6])),
+        [[1_072_273.0, -473_246.53, -356_785.03], [-16.402_138, 82.062_12, -158.143_36]],
+        [4.234_372_620_699_446_6e-5, 0.000_128_795_867_984_257_94, 6.244_166_072_180_52e-5],
+        9e-5,
     );
 }
