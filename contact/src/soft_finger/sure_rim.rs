@@ -42,11 +42,7 @@ pub(crate) fn surely_on_rim<T: Real>(
     rim: &Rim,
     contact: SoftContact<T>,
 ) -> SoftContact<T> {
-    let point = wide(&contact.point);
-    let is_loose = |held: f64, [force, torque]: [Vector3<f64>; 2]| {
-        held.abs() <= (torque.norm() + force.norm() * point.norm()) * HAIR
-    };
-    anew(wrench, pose, rim, &contact, is_loose).unwrap_or(contact)
+    anew(wrench, pose, rim, &contact, HAIR).unwrap_or(contact)
 }
 
 /// The contact on an edge next to one beside it. `None` if there is none.
@@ -56,25 +52,27 @@ pub(super) fn next_to_rim<T: Real>(
     rim: &Rim,
     contact: &SoftContact<T>,
 ) -> Option<SoftContact<T>> {
-    anew(wrench, pose, rim, contact, |_, _| true)
+    anew(wrench, pose, rim, contact, f64::INFINITY)
 }
 
-/// `None` where it is as found, or is not to be found anew for what the place is held by, and the load.
+/// `None` where it is as found: the place is held by more than this share of the torque that rounds, or no place is near.
 fn anew<T: Real>(
     wrench: &Wrench<T>,
     pose: Option<&RigidTransform<T>>,
     rim: &Rim,
     contact: &SoftContact<T>,
-    is_loose: impl Fn(f64, [Vector3<f64>; 2]) -> bool,
+    most: f64,
 ) -> Option<SoftContact<T>> {
     let centre = rim.centre();
     let frame = placed(LocalSurface::Plane { point: centre, normal: rim.axis }.into(), pose)?;
     let (scale, load) = scaled(wrench);
-    let from_centre = frame.point_inside(&wide(&contact.point)) - centre;
+    let point = wide(&contact.point);
+    let from_centre = frame.point_inside(&point) - centre;
     let outward = from_centre - rim.axis * (from_centre.dot(&rim.axis) / rim.axis.norm_squared());
     let [inside, about] = frame.load_inside::<f64>(load).map(Vector3::from);
     let held = (about - centre.cross(&inside)).dot(&outward) / outward.norm();
-    if !is_loose(held, load) {
+    let [force, torque] = load;
+    if !(held.abs() <= (torque.norm() + force.norm() * point.norm()) * most) {
         return None;
     }
     let (arm, spin, normal) = solved(rim, frame.load_inside(load), held)?;

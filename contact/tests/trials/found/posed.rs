@@ -342,9 +342,9 @@ fn a_fold_on_a_ring_in_a_pose() {
     );
 }
 
-/// On the side of a posed cylinder, far from where the first guess of the edge lies.
+/// On the edge of a posed cylinder, which the rounding of the moved wrench takes for a place on the side next to it.
 #[test]
-fn on_the_side_of_a_capped_cylinder_in_a_pose() {
+fn on_the_edge_next_to_a_side() {
     let axis = Vector3::new(0.974_230_628_002_192_3, -0.214_361_264_413_592_18, 0.070_170_733_083_388_52);
     let cylinder =
         CappedCylinder::new(Vector3::zeros(), axis, 350.955_364_157_207_67, 349.235_389_138_127_74);
