@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::patch::Digits;
 use super::placed::placed;
-use super::refined::{answers, rounding_moves, scaled, settled_on};
+use super::refined::{answers, rounding_moves, scaled, settled};
 use super::sure_rim::{Rim, next_to_rim};
 use super::three::rounded;
 use super::tip::is_found_anew;
@@ -49,7 +49,7 @@ pub(crate) fn surely_on_side<T: Real>(
     let normal = normal.map(T::literal);
     let spin_torque = wrench.torque_about(&contact.point).dot(&normal);
     let near = SoftContact { normal, spin_torque, ..contact };
-    let settled = settled_on(wrench, &|_| Some(patch), &near);
+    let settled = settled(wrench, &|_| Some(patch), &near);
     let is_there =
         |contact: &SoftContact<T>| holds(&patch.point_inside(&wide(&contact.point)).map(T::literal));
     Ok(settled.filter(is_there).unwrap_or(contact))
@@ -77,7 +77,7 @@ pub(crate) fn surely_beyond_side<T: Real>(
     if !((rounded(seen.normal) - normal).amax() <= HAIR && room <= moved) {
         return contact;
     }
-    let is_beyond = settled_on(wrench, &|_| Some(patch), &contact)
+    let is_beyond = settled(wrench, &|_| Some(patch), &contact)
         .is_some_and(|end| !holds(&patch.point_inside(&wide(&end.point)).map(T::literal)));
     if is_beyond { next_to_rim(wrench, pose, &rim, &contact).unwrap_or(contact) } else { contact }
 }

@@ -23,7 +23,7 @@ const STEPS: usize = 16;
 const FLATTEST: f64 = 4.768_371_582_031_25e-7;
 
 /// What a surface is at a point ([`SoftFingerSurface::patch`]).
-pub(super) type PartAt<'a, T> = &'a dyn Fn(&Vector3<T>) -> Option<Patch>;
+pub(crate) type PartAt<'a, T> = &'a dyn Fn(&Vector3<T>) -> Option<Patch>;
 
 /// The solution of the soft-finger equations next to a contact that is off by rounding errors.
 ///
@@ -122,27 +122,18 @@ pub(super) fn answers(curvatures: [f64; 2], spin: f64, strength: f64, incidence:
 }
 
 /// The same from a contact that is only near: for where rounding keeps Newton's method from settling, as next
-/// to a tip. `None` unless the equations hold, and the force presses.
+/// to a tip. `None` unless the equations hold, and the force presses; and in single precision without the feature
+/// `mixed-precision`.
 #[cold]
 #[inline(never)]
-pub(crate) fn settled<T: Real, S: SoftFingerSurface<T>>(
+pub(crate) fn settled<T: Real>(
     wrench: &Wrench<T>,
-    surface: &S,
+    patch_at: PartAt<'_, T>,
     contact: &SoftContact<T>,
 ) -> Option<SoftContact<T>> {
     if !is_refined_in_double::<T>() {
         return None;
     }
-    settled_on(wrench, &|point| surface.patch(point), contact)
-}
-
-/// The same on a surface that tells what it is, compiled once for all of them.
-#[inline(never)]
-pub(super) fn settled_on<T: Real>(
-    wrench: &Wrench<T>,
-    patch_at: PartAt<'_, T>,
-    contact: &SoftContact<T>,
-) -> Option<SoftContact<T>> {
     let (scale, load) = scaled(wrench);
     let start = (wide(&contact.point), contact.spin_torque.to_f64() * scale);
     let end = solve::<Twofold<f64>, T>(load, patch_at, start, Start::Near)?;

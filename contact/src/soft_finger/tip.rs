@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use super::patch::Digits;
 use super::placed::{Patch, placed};
-use super::refined::{PartAt, scaled, settled_on};
+use super::refined::{PartAt, scaled, settled};
 use super::rim::touching;
 use super::three::{Three, cross, dot, exactly, plus_times, rounded, unit};
 use crate::{Search, SoftContact, SoftFingerSurface};
@@ -97,7 +97,7 @@ fn surely<T: Real>(
             let (point, normal) = (point.map(T::literal), normal.map(T::literal));
             let spin_torque = wrench.torque_about(&point).dot(&normal);
             let near = SoftContact { point, normal, spin_torque, active: true };
-            let settled = settled_on(wrench, part_at, &near);
+            let settled = settled(wrench, part_at, &near);
             settled.filter(|contact| holds(&wide(&contact.point))).map_or(found, Ok)
         }
         _ => found,

@@ -44,7 +44,7 @@ pub use frustum::Frustum;
 pub use implicit::{Implicit, ImplicitSurface};
 pub use paraboloid::Paraboloid;
 pub use plane::Plane;
-pub use profile::Knot;
+pub use profile::{Knot, Profile, ProfileInDouble};
 pub use rectangle::Rectangle;
 pub use revolution::Revolution;
 pub use rounded_box::RoundedBox;

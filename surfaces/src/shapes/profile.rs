@@ -1,5 +1,7 @@
 //! The profile of a surface of revolution: the square of its radius as a spline.
 
+use core::marker::PhantomData;
+
 use fingertip_wrench::Real;
 
 use crate::numeric::twofold::Twofold;
@@ -45,6 +47,66 @@ impl<T: Real> Knot<T> {
     #[must_use]
     pub const fn point(&self) -> [T; 2] {
         [self.z, self.radius]
+    }
+
+    fn slopes(&self) -> [Twofold<T>; 2] {
+        [
+            Twofold::difference(self.slope, -self.rests[0]),
+            Twofold::difference(self.middle_slope, -self.rests[1]),
+        ]
+    }
+
+    /// The same in double precision, with what rounding took from the slopes.
+    fn in_double(&self) -> Knot<f64> {
+        let [slope, middle_slope] = [(self.slope, self.rests[0]), (self.middle_slope, self.rests[1])]
+            .map(|(rounded, rest)| rounded.to_f64() + rest.to_f64());
+        let [z, radius] = self.point().map(Real::to_f64);
+        Knot { z, radius, slope, middle_slope, rests: [0.0; 2] }
+    }
+}
+
+/// The points of a profile from bottom to top, however they are kept: an array, a slice, a vector of [`Knot`]s.
+///
+/// ```
+/// use fingertip_surfaces::{Profile, Revolution};
+///
+/// fn height(profile: &impl Profile<f64>) -> f64 {
+///     profile.knots().last().map_or(0.0, |knot| knot.point()[0])
+/// }
+///
+/// let tip = Revolution::from_profile([[0.0, 0.004], [0.008, 0.003], [0.010, 0.0]])?;
+/// assert_eq!(height(&tip.knots()), 0.010);
+/// # Ok::<(), fingertip_surfaces::BadShape>(())
+/// ```
+pub trait Profile<T: Real> {
+    /// Its points.
+    fn knots(&self) -> impl Iterator<Item = Knot<T>>;
+}
+
+impl<T: Real, K: AsRef<[Knot<T>]> + ?Sized> Profile<T> for K {
+    #[inline]
+    fn knots(&self) -> impl Iterator<Item = Knot<T>> {
+        self.as_ref().iter().copied()
+    }
+}
+
+/// A profile in double precision, each of its points widened when it is asked for: there may be no heap to keep them.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct ProfileInDouble<'a, T, K> {
+    profile: &'a K,
+    scalar: PhantomData<T>,
+}
+
+impl<'a, T: Real, K: Profile<T>> ProfileInDouble<'a, T, K> {
+    pub(super) fn new(profile: &'a K) -> Self {
+        Self { profile, scalar: PhantomData }
+    }
+}
+
+impl<T: Real, K: Profile<T>> Profile<f64> for ProfileInDouble<'_, T, K> {
+    fn knots(&self) -> impl Iterator<Item = Knot<f64>> {
+        self.profile.knots().map(|knot| knot.in_double())
     }
 }
 
@@ -134,7 +196,7 @@ pub(super) fn fit<T: Real>(knots: &mut [Knot<T>]) -> Result<(), BadShape> {
         }
     }
     let tolerance = greatest * greatest * T::EPSILON * T::literal(16.0);
-    for piece in pieces(knots) {
+    for piece in pieces(&*knots) {
         let turn = piece.low - piece.slope / (two * piece.curvature);
         let least = if turn > piece.low && turn < piece.high { piece.squared_at(turn) } else { T::zero() };
         BadShape::check(
@@ -147,8 +209,8 @@ pub(super) fn fit<T: Real>(knots: &mut [Knot<T>]) -> Result<(), BadShape> {
     Ok(())
 }
 
-pub(super) fn pieces<T: Real>(knots: &[Knot<T>]) -> impl Iterator<Item = Piece<T>> + '_ {
-    knots.iter().zip(knots.iter().skip(1)).flat_map(|(this, next)| {
+pub(super) fn pieces<T: Real, K: Profile<T> + ?Sized>(profile: &K) -> impl Iterator<Item = Piece<T>> {
+    profile.knots().zip(profile.knots().skip(1)).flat_map(|(this, next)| {
         let width = next.z - this.z;
         let half = width * T::literal(0.5);
         let middle = this.z + half;
@@ -179,25 +241,43 @@ pub(super) fn pieces<T: Real>(knots: &[Knot<T>]) -> impl Iterator<Item = Piece<T
     })
 }
 
-/// The knots below and above a height, or the first or the last two, and the place of the lower one.
-fn interval<T: Real>(knots: &[Knot<T>], z: T) -> Option<(usize, &Knot<T>, &Knot<T>)> {
-    let last = knots.len().checked_sub(2)?;
-    let below = knots.iter().skip(1).position(|next| z <= next.z).unwrap_or(last);
-    Some((below, knots.get(below)?, knots.get(below + 1)?))
+/// The knots below and above a height, or the first or the last two, and whether they are these.
+struct Interval<T: Real> {
+    this: Knot<T>,
+    next: Knot<T>,
+    is_first: bool,
+    is_last: bool,
+}
+
+impl<T: Real> Interval<T> {
+    fn at<K: Profile<T> + ?Sized>(profile: &K, z: T) -> Option<Self> {
+        let mut above = profile.knots();
+        let (this, next) = (above.next()?, above.next()?);
+        let mut found = Self { this, next, is_first: true, is_last: false };
+        for beyond in above {
+            if z <= found.next.z {
+                return Some(found);
+            }
+            found = Self { this: found.next, next: beyond, is_first: false, is_last: false };
+        }
+        Some(Self { is_last: true, ..found })
+    }
 }
 
 /// Squared radius at a height and its slope, with twice the digits and the slopes that the points
 /// have exactly; as if the first and the last piece went on beyond the ends.
-pub(super) fn exactly_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<[Twofold<T>; 2]> {
-    let (_, this, next) = interval(knots, z)?;
-    let slope = |rounded: T, rest: T| Twofold::difference(rounded, -rest);
-    let middle = slope(this.middle_slope, this.rests[1]);
+pub(super) fn exactly_at<T: Real>(profile: &impl Profile<T>, z: T) -> Option<[Twofold<T>; 2]> {
+    let Interval { this, next, .. } = Interval::at(profile, z)?;
+    let [at_this, middle] = this.slopes();
     let width = Twofold::difference(next.z, this.z);
     // In terms of the nearer knot, so that the value there is exact.
     let ahead = Twofold::difference(z, this.z);
     let from_this = (ahead.value() + ahead.value()) <= width.value();
-    let (knot, way) = if from_this { (this, ahead) } else { (next, Twofold::difference(z, next.z)) };
-    let at_knot = slope(knot.slope, knot.rests[0]);
+    let (knot, way, at_knot) = if from_this {
+        (this, ahead, at_this)
+    } else {
+        (next, Twofold::difference(z, next.z), next.slopes()[0])
+    };
     // Half the width from knot to middle, in the direction of the way.
     let turn = if from_this { middle.minus(at_knot) } else { at_knot.minus(middle) };
     let bend = turn.times(way).divided_by(width);
@@ -206,27 +286,52 @@ pub(super) fn exactly_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<[Twofold<T>
 }
 
 /// The part of the side at a height, by the numbers of the nearer knot. Those at the ends go on.
-pub(super) fn local_surface_at<T: Real>(knots: &[Knot<T>], z: T) -> Option<LocalSurface> {
-    let (below, this, next) = interval(knots, z)?;
-    let is_last = below + 2 == knots.len();
-    let [low, high, at] = [this.z, next.z, z].map(Real::to_f64);
-    let exact = |rounded: T, rest: T| rounded.to_f64() + rest.to_f64();
-    let middle = exact(this.middle_slope, this.rests[1]);
+pub(super) fn local_surface_at<T: Real>(profile: &impl Profile<T>, z: T) -> Option<LocalSurface> {
+    let Interval { this, next, is_first, is_last } = Interval::at(profile, z)?;
+    let (this, next, at) = (this.in_double(), next.in_double(), z.to_f64());
+    let (low, high, middle) = (this.z, next.z, this.middle_slope);
     let half = low + (high - low) * 0.5;
     let from_this = at <= half;
     let knot = if from_this { this } else { next };
-    let slope = exact(knot.slope, knot.rests[0]);
     Some(LocalSurface::Turned {
-        origin: knot.z.to_f64(),
-        radius: knot.radius.to_f64(),
-        slope,
-        turn: if from_this { [slope, middle] } else { [middle, slope] },
+        origin: knot.z,
+        radius: knot.radius,
+        slope: knot.slope,
+        turn: if from_this { [knot.slope, middle] } else { [middle, knot.slope] },
         width: [low, high],
-        between: match (from_this, below) {
-            (true, 0) => [f64::NEG_INFINITY, half],
-            (true, _) => [low, half],
-            (false, _) if is_last => [half, f64::INFINITY],
-            (false, _) => [half, high],
+        between: match (from_this, is_first, is_last) {
+            (true, true, _) => [f64::NEG_INFINITY, half],
+            (true, ..) => [low, half],
+            (false, _, true) => [half, f64::INFINITY],
+            (false, ..) => [half, high],
         },
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Knot, Profile, ProfileInDouble, pieces};
+    use crate::Revolution;
+
+    #[test]
+    fn a_profile_in_double_precision_is_that_of_the_same_points() {
+        let points = [[0.0_f32, 0.008], [0.004, 0.0083], [0.008, 0.0074], [0.012, 0.0052], [0.014, 0.0]];
+        let narrow = Revolution::from_profile(points).unwrap();
+        let wide = Revolution::from_profile(points.map(|point| point.map(f64::from))).unwrap();
+        let widened = ProfileInDouble::new(narrow.profile());
+        assert_eq!(
+            widened.knots().map(|knot| knot.point()).collect::<Vec<_>>(),
+            wide.knots().iter().map(Knot::point).collect::<Vec<_>>(),
+        );
+        let mut pairs = pieces(&widened).zip(pieces(wide.profile())).peekable();
+        assert!(pairs.peek().is_some());
+        for (piece, same) in pairs {
+            assert_eq!((piece.low, piece.high), (same.low, same.high));
+            // A slope has the digits of its two numbers in single precision.
+            let [bend, straight] = [piece.curvature - same.curvature, piece.slope - same.slope];
+            assert!(straight.abs() <= 4e-15 * 0.02, "{straight}");
+            assert!(bend.abs() <= 4e-15 * 10.0, "{bend}");
+            assert!((piece.squared - same.squared).abs() < 1e-18);
+        }
+    }
 }

@@ -3,13 +3,13 @@
 use fingertip_wrench::{Line, Real};
 use nalgebra::Vector3;
 
-use super::profile::{Knot, pieces};
+use super::profile::{Profile, pieces};
 use super::revolution::Revolution;
 use crate::Crossing;
 use crate::numeric::quadratic::roots;
 use crate::numeric::vectors::foot;
 
-impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
+impl<T: Real, K: Profile<T>> Revolution<T, K> {
     /// Compiled once, not once for each caller: a call through a pointer costs little beside what is done here.
     pub(super) fn each_crossing(&self, line: &Line<T>, visit: &mut dyn FnMut(Crossing<T>)) {
         let (centre, reach) = self.bounds();
@@ -32,8 +32,8 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
             x * x + y * y - squared
         };
         // Pieces hold their lower end, the last one both.
-        let top = self.knots().last().map_or(start.z, |knot| knot.z);
-        for piece in pieces(self.knots()) {
+        let top = self.ends().map_or(start.z, |(_, top)| top.z);
+        for piece in pieces(self.profile()) {
             let (low, high) = if direction.z == T::zero() {
                 let holds = start.z < piece.high || start.z == top && piece.high == top;
                 if !(piece.low <= start.z && holds) {

@@ -7,12 +7,13 @@ use alloc::vec::Vec;
 use fingertip_wrench::{Line, Real};
 use nalgebra::{Matrix3, Vector3};
 
-use super::profile::{Knot, exactly_at, fit, local_surface_at, pieces};
+use super::profile::{Knot, Profile, ProfileInDouble, exactly_at, fit, local_surface_at, pieces};
 use super::sight::Sight;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::vectors::{hypotenuse, is_finite, length, unit_or};
+use crate::shortcuts::entry_near;
 use crate::{
-    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, LocalSurface, Shortcuts,
+    ActiveSurface, BadShape, ClosestApproach, Crossing, Extent, Level, LineInDouble, LocalSurface, Shortcuts,
     SmoothSurface, Topology,
 };
 
@@ -25,6 +26,8 @@ use crate::{
 ///
 /// Where the profile ends with a radius that is not zero, a flat end closes the solid; it is not
 /// active, since that is where a fingertip is held.
+///
+/// In files, a list of points `[z, radius]`.
 ///
 /// ```
 /// use fingertip_surfaces::Revolution;
@@ -93,15 +96,37 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     pub fn knots(&self) -> &[Knot<T>] {
         self.knots.as_ref()
     }
+}
+
+impl<T: Real, K: Profile<T>> Revolution<T, K> {
+    #[inline]
+    pub(super) const fn profile(&self) -> &K {
+        &self.knots
+    }
+
+    /// The same in double precision.
+    #[doc(hidden)]
+    pub fn in_double(&self) -> Revolution<f64, ProfileInDouble<'_, T, K>> {
+        Revolution { knots: ProfileInDouble::new(&self.knots), scalar: PhantomData }
+    }
 
     pub(super) fn ends(&self) -> Option<(Knot<T>, Knot<T>)> {
-        Some((*self.knots().first()?, *self.knots().last()?))
+        let mut knots = self.profile().knots();
+        let bottom = knots.next()?;
+        Some((bottom, knots.last().unwrap_or(bottom)))
+    }
+
+    /// From which height to which the profile goes \[m\].
+    #[doc(hidden)]
+    #[must_use]
+    pub fn heights(&self) -> Option<[T; 2]> {
+        self.ends().map(|(bottom, top)| [bottom.z, top.z])
     }
 
     /// Squared radius at a height, with its first and second derivative; straight beyond the ends.
-    pub(crate) fn profile(&self, z: T) -> [T; 3] {
+    pub(crate) fn profile_at(&self, z: T) -> [T; 3] {
         let mut found = None;
-        for piece in pieces(self.knots()) {
+        for piece in pieces(self.profile()) {
             if z < piece.low && found.is_some() {
                 break;
             }
@@ -117,7 +142,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     /// `true` if the radius is a concave function of the height: on each piece,
     /// `2ρ²(ρ²)″ ≤ ((ρ²)′)²`, of which both sides differ by a constant.
     pub(crate) fn is_convex(&self) -> bool {
-        pieces(self.knots()).all(|piece| {
+        pieces(self.profile()).all(|piece| {
             let four = T::literal(4.0);
             let (rise, bend) = (piece.slope * piece.slope, four * piece.squared * piece.curvature);
             bend <= rise + (bend.abs() + rise) * T::EPSILON * T::literal(16.0)
@@ -128,7 +153,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
         let (low, high) = self.ends().map_or((T::zero(), T::zero()), |(a, b)| (a.z, b.z));
         let half = (high - low) * T::literal(0.5);
         // The spline may bulge over its knots: by its slope, at most.
-        let squared = pieces(self.knots()).fold(T::zero(), |greatest, piece| {
+        let squared = pieces(self.profile()).fold(T::zero(), |greatest, piece| {
             let bulge = (piece.slope.abs() + (piece.high - piece.low) * piece.curvature.abs())
                 * (piece.high - piece.low);
             greatest.max(piece.squared + bulge)
@@ -140,7 +165,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     /// Outward normal of the side where the profile passes `z`.
     pub(super) fn side_normal(&self, x: T, y: T, z: T) -> Vector3<T> {
         let mut found = Vector3::z();
-        for piece in pieces(self.knots()) {
+        for piece in pieces(self.profile()) {
             found = Vector3::new(x, y, -piece.slope_at(z.max(piece.low).min(piece.high)) * T::literal(0.5));
             if z <= piece.high {
                 break;
@@ -152,16 +177,16 @@ impl<T: Real, K: AsRef<[Knot<T>]>> Revolution<T, K> {
     /// The part of the side at a height, to the last digit.
     #[doc(hidden)]
     pub fn local_surface_at(&self, z: T) -> Option<LocalSurface> {
-        local_surface_at(self.knots(), z)
+        local_surface_at(self.profile(), z)
     }
 
     fn inside(&self, radius: T, z: T) -> bool {
-        pieces(self.knots())
+        pieces(self.profile())
             .any(|piece| z > piece.low && z <= piece.high && radius * radius < piece.squared_at(z))
     }
 }
 
-impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
+impl<T: Real, K: Profile<T>> ActiveSurface<T> for Revolution<T, K> {
     fn crossings(&self, line: &Line<T>, mut visit: impl FnMut(Crossing<T>)) {
         self.each_crossing(line, &mut visit);
     }
@@ -175,13 +200,13 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
     fn closest_approach(&self, line: &Line<T>) -> Option<ClosestApproach<T>> {
         let (centre, reach) = self.bounds();
         let mut sight = Sight::new(line, &centre, reach);
-        let mut all = pieces(self.knots()).map(|piece| sight.seen(&piece));
+        let mut all = pieces(self.profile()).map(|piece| sight.seen(&piece));
         if let Some(first) = all.next() {
             let last = all.last().unwrap_or(first);
             sight.rim(first.low, first.squared.root(), first.slope, -T::one());
             sight.rim(last.high, last.squared_above.root(), last.slope_above, T::one());
         }
-        for piece in pieces(self.knots()) {
+        for piece in pieces(self.profile()) {
             sight.side(&sight.seen(&piece));
         }
         let (gap, point, normal) = sight.nearest().unwrap_or_else(|| (T::zero(), centre, Vector3::z()));
@@ -194,7 +219,7 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
 
     fn normal(&self, point: &Vector3<T>) -> Vector3<T> {
         let radius = hypotenuse(point.x, point.y);
-        let [squared, slope, _] = self.profile(point.z);
+        let [squared, slope, _] = self.profile_at(point.z);
         let from_side = ((radius * radius - squared) / hypotenuse(radius + radius, slope)).abs();
         let on = |end: &Knot<T>| radius < end.radius && (point.z - end.z).abs() < from_side;
         let Some((bottom, top)) = self.ends() else { return Vector3::z() };
@@ -213,25 +238,28 @@ impl<T: Real, K: AsRef<[Knot<T>]>> ActiveSurface<T> for Revolution<T, K> {
     }
 }
 
-impl<T: Real, K: AsRef<[Knot<T>]>> Shortcuts<T> for Revolution<T, K> {
+impl<T: Real, K: Profile<T>> Shortcuts<T> for Revolution<T, K> {
     /// Outside the side, on which the active part lies.
     fn surface_residual(&self, point: &Vector3<T>) -> T {
-        let Some([squared, slope]) = exactly_at(self.knots(), point.z) else { return T::zero() };
+        let Some([squared, slope]) = exactly_at(self.profile(), point.z) else { return T::zero() };
         let [x, y] = [point.x, point.y].map(Twofold::new);
         let excess = x.squared().plus(y.squared()).minus(squared).value();
         let outside = excess / length(&Vector3::new(point.x + point.x, point.y + point.y, slope.value()));
         // At a tip there is no telling.
         if outside.is_number() { outside } else { T::zero() }
     }
+
+    fn posed_entry_in_double(&self, line: &Line<f64>, near: &Vector3<f64>) -> Option<LineInDouble> {
+        entry_near(&self.in_double(), line, near)
+    }
 }
 
-/// In files, a list of points `[z, radius]`.
 /// `x² + y² − ρ²(z)`, piece by piece; beyond the ends of the profile `ρ²` goes on straight, which
 /// keeps a convex profile convex. The curvature jumps where pieces meet; the flat ends are not part
 /// of the level function.
-impl<T: Real, K: AsRef<[Knot<T>]>> SmoothSurface<T> for Revolution<T, K> {
+impl<T: Real, K: Profile<T>> SmoothSurface<T> for Revolution<T, K> {
     fn level(&self, point: &Vector3<T>) -> Level<T> {
-        let [squared, slope, curvature] = self.profile(point.z);
+        let [squared, slope, curvature] = self.profile_at(point.z);
         let two = T::one() + T::one();
         Level {
             value: point.x * point.x + point.y * point.y - squared,

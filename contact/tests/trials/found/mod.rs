@@ -2,6 +2,7 @@
 
 mod boxes;
 mod posed;
+mod revolutions;
 
 use fingertip_contact::{ContactModel, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Frustum, Superquadric, Torus};
