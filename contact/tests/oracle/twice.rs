@@ -9,9 +9,26 @@ use std::sync::LazyLock;
 mod vectors;
 pub(crate) use vectors::*;
 
-/// Those of 2 to 11.
-static INVERSES: LazyLock<[Big; 10]> =
-    LazyLock::new(|| core::array::from_fn(|k| Big::new(1.0) / Big::new((k + 2) as f64)));
+/// Steps of the table of the exponential function, to one.
+const STEPS: f64 = 32.0;
+
+/// Terms of a series that need twice the digits: what follows is less than 1e-17 of the sum.
+const TERMS: usize = 7;
+
+/// The reciprocals of 1 to 7.
+static INVERSES: LazyLock<[Big; TERMS]> =
+    LazyLock::new(|| core::array::from_fn(|k| Big::new(1.0) / Big::new((k + 1) as f64)));
+
+/// `exp(k/32)` of k from 0 to 12: as far as half the logarithm of two.
+static EXPONENTIALS: LazyLock<[Big; 13]> = LazyLock::new(|| {
+    let half_step = Big::new(1.0) + Big::new(0.5 / STEPS).exp_less_one();
+    let mut next = Big::new(1.0);
+    core::array::from_fn(|_| {
+        let power = next;
+        next = power * half_step * half_step;
+        power
+    })
+});
 
 /// The unevaluated sum of two doubles, the second at most half a unit in the last place of the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,23 +89,24 @@ impl Big {
         y + Self::new(2.0) * (self - there) / (self + there)
     }
 
-    /// `(exp(r/512))^512` with a Taylor series, times a power of two.
+    /// By a table, a Taylor series of what is left, and a power of two.
     fn exp(self) -> Self {
         const LN_2: Big = Big { high: core::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
         let whole = (self.high / core::f64::consts::LN_2).round();
-        let small = (self - LN_2 * Self::new(whole)) * Self::new(1.0 / 512.0);
-        // Without the one, which would take digits.
-        let (mut sum, mut term) = (small, small);
-        for inverse in INVERSES.iter() {
-            term = term * small * *inverse;
-            sum = sum + term;
-        }
-        for _ in 0..9 {
-            sum = sum + sum + sum * sum;
-        }
-        let sum = sum + Self::new(1.0);
+        let left = self - LN_2 * Self::new(whole);
+        let steps = (left.high * STEPS).round();
+        let tabled = EXPONENTIALS[steps.abs().min(12.0) as usize];
+        let tabled = if steps < 0.0 { Self::new(1.0) / tabled } else { tabled };
+        let sum = tabled + tabled * (left - Self::new(steps / STEPS)).exp_less_one();
         let scale = whole.exp2();
         Self { high: sum.high * scale, low: sum.low * scale }
+    }
+
+    /// `exp(x) − 1` up to a 64th, by its Taylor series.
+    fn exp_less_one(self) -> Self {
+        // Of the terms behind the seventh a double has digits enough.
+        let tail = (TERMS + 1..=TERMS + 7).rev().fold(0.0, |sum, k| self.high * (1.0 + sum) / k as f64);
+        INVERSES.iter().rev().fold(Self::new(tail), |sum, inverse| self * *inverse * (Self::new(1.0) + sum))
     }
 
     pub(crate) fn abs(&self) -> Self {
