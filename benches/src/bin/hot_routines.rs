@@ -5,7 +5,8 @@ use core::hint::black_box;
 
 use fingertip_benches::hand_written::{HandA, HandB};
 use fingertip_benches::{paper_sensor, signals};
-use fingertip_contact::{ContactModel, PointContact, SoftFinger};
+use fingertip_contact::batch::{BatchSurface, Contacts, SoftContacts, Wrenches};
+use fingertip_contact::{ContactModel, PointContact, SoftFinger, SoftFingerSurface};
 use fingertip_friction::{
     Coulomb, DropDetector, ForceNoise, FrictionModel, LikelihoodRatioDetector, NormalForceGate, PowerLimit,
     RatioThreshold, SlipDetector, SoftFingerLimit,
@@ -13,12 +14,12 @@ use fingertip_friction::{
 use fingertip_hand::Hand;
 use fingertip_scenes::{Felt, Grips, Scene, SceneA, SceneB, SceneC, SceneD, Volts};
 use fingertip_surfaces::{
-    CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Frustum, Plane, RoundedBox, Sphere, Superquadric,
-    Torus,
+    CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Frustum, Plane, Posed, RoundedBox, Sphere,
+    Superquadric, Torus,
 };
 use fingertip_wrench::{
-    BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined, SensorMatrix,
-    Wrench, WrenchSolver,
+    BicchiDario, ContactForce, Decoupled, GaussianElimination, Inverse, LeastSquares, Refined,
+    RigidTransform, SensorMatrix, Wrench, WrenchSolver,
 };
 use nalgebra::{Vector3, Vector6};
 
@@ -136,6 +137,74 @@ fn contacts() -> Result<(), Failure> {
     Ok(())
 }
 
+/// Wrenches as columns, and room for what is found of them.
+struct Columns {
+    soft: SoftFinger<f32>,
+    given: [Vec<f32>; 6],
+    found: [Vec<f32>; 7],
+}
+
+impl Columns {
+    /// As many as are taken together.
+    const COUNT: usize = 64;
+
+    fn of(wrenches: &[Wrench<f32>]) -> Result<Self, Failure> {
+        let column = |k: usize| {
+            wrenches.iter().cycle().take(Self::COUNT).map(|wrench| wrench.components()[k]).collect()
+        };
+        Ok(Self {
+            soft: SoftFinger::new(0.1)?,
+            given: core::array::from_fn(column),
+            found: core::array::from_fn(|_| vec![0.0; Self::COUNT]),
+        })
+    }
+
+    fn wrenches(given: &[Vec<f32>; 6]) -> Wrenches<'_, f32> {
+        let [fx, fy, fz, tx, ty, tz] = given.each_ref().map(|column| &column[..]);
+        Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] }
+    }
+
+    fn points(&mut self, surface: &impl BatchSurface<f32>) {
+        let [px, py, pz, nx, ny, nz, gap] = self.found.each_mut().map(|column| &mut column[..]);
+        let contacts = Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap };
+        surface.contacts(Self::wrenches(&self.given), contacts);
+    }
+
+    fn soft(&mut self, surface: &impl SoftFingerSurface<f32>) {
+        let [px, py, pz, nx, ny, nz, spin_torque] = self.found.each_mut().map(|column| &mut column[..]);
+        let contacts = SoftContacts { point: [px, py, pz], normal: [nx, ny, nz], spin_torque };
+        self.soft.resolve_all(surface, Self::wrenches(&self.given), contacts);
+    }
+}
+
+/// Each of 64 wrenches. Where the compiler makes no vectors they take four times as many instructions.
+fn columns() -> Result<(), Failure> {
+    let (wrenches, twists) = (pushes(), twists());
+    let (centre, up) = (Vector3::zeros(), Vector3::z());
+    let (cone, capsule) =
+        (Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?, Capsule::new(centre, up, 0.009, 0.004)?);
+    let place = RigidTransform::translation(Vector3::new(1e-3, 0.0, 0.0));
+    macro_rules! columns {
+        ($($name:ident: $kind:ty, $wrenches:ident, $method:ident = $shape:expr;)*) => { $(
+            count!($name, ($shape, Columns::of(&$wrenches)?), ($kind, Columns), [()], |s, none: ()| {
+                let (none, (shape, columns)) = (*none, s);
+                columns.$method(shape);
+                none
+            });
+        )* };
+    }
+    columns! {
+        point_column_on_cone: Cone<f32>, wrenches, points = cone;
+        point_column_on_frustum: Frustum<f32>, wrenches, points = Frustum::new(up * -0.012, up, 0.012, 0.005, 0.024)?;
+        soft_column_on_sphere: Sphere<f32>, wrenches, soft = Sphere::centred(0.013)?;
+        soft_column_on_plane: Plane<f32>, wrenches, soft = Plane::new(centre, up)?;
+        soft_column_on_cylinder: Cylinder<f32>, twists, soft = Cylinder::new(centre, Vector3::x(), 0.009)?;
+        soft_column_on_cone: Cone<f32>, twists, soft = cone;
+        soft_column_on_posed_capsule: Posed<f32, Capsule<f32>>, twists, soft = Posed::new(capsule, place);
+    }
+    Ok(())
+}
+
 fn friction() -> Result<(), Failure> {
     let forces = [0.0_f32, 0.01, -0.02, 0.015, -0.005].map(|noise| {
         ContactForce::new(4.0 + noise, Vector3::new(1.2 - noise, 0.9 + noise, 1e-3 * noise), 1e-3)
@@ -235,6 +304,7 @@ fn grips() -> Result<(), Failure> {
 fn main() -> Result<(), Failure> {
     solvers()?;
     contacts()?;
+    columns()?;
     friction()?;
     grips()?;
     scenes()

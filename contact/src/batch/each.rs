@@ -13,7 +13,7 @@ use crate::{ContactModel, NoContact, PointContact, Resolution};
 const BLOCK: usize = 64;
 
 /// A surface whose lines of action are met one like the other.
-pub(crate) trait Entering<T: Real>: ActiveSurface<T> {
+pub(crate) trait Entering<T: Real>: ActiveSurface<T> + Copy {
     /// Where a force enters, without a branch: `None`, always or of single forces, says nothing.
     #[inline(always)]
     fn enters(&self, push: &ForceLine<T>) -> Option<Entry<T>> {
@@ -55,14 +55,15 @@ pub(crate) fn run<T: Real, S: Entering<T>>(
     surface: &S,
 ) {
     let (least, least_steepness) = (ForceLine::least_squared(), flat::<T>().whole_power(2));
+    let shape = *surface;
     let Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap } = contacts;
     each(
         wrenches,
         [px, py, pz, nx, ny, nz, gap],
         #[inline(always)]
-        |wrench| {
+        move |wrench| {
             let (push, is_in_range) = ForceLine::tried(wrench, least);
-            let entry = surface.enters(&push);
+            let entry = shape.enters(&push);
             let told = is_in_range
                 & entry.is_some_and(|entry| entry.active & (entry.incidence_squared >= least_steepness));
             (entry.map_or_else(nothing, |entry| (entry.point, entry.normal, T::zero())), told)
@@ -72,6 +73,9 @@ pub(crate) fn run<T: Real, S: Entering<T>>(
 }
 
 /// Seven numbers of every wrench: as `shortcut` says, or else as `alone` does.
+///
+/// The shortcut holds copies of what it needs: what it would read from memory in a part of the loop that not every wrench
+/// takes, the compiler takes to be too dear for vectors without masks, such as those of AVX2, and it makes none.
 #[inline(always)]
 pub(super) fn each<T: Real>(
     wrenches: Wrenches<'_, T>,

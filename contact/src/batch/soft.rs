@@ -71,13 +71,14 @@ impl<T: Real> SoftFinger<T> {
         contacts: SoftContacts<'_, T>,
     ) {
         let SoftContacts { point: [px, py, pz], normal: [nx, ny, nz], spin_torque } = contacts;
+        let (least_squared, sole) = (self.least_squared, surface.sole_soft_contacts_in_columns());
         each(
             wrenches,
             [px, py, pz, nx, ny, nz, spin_torque],
             #[inline(always)]
-            |wrench| {
-                let (push, is_in_range) = ForceLine::tried(wrench, self.least_squared);
-                let contact = surface.sole_soft_contact_in_columns(&push);
+            move |wrench| {
+                let (push, is_in_range) = ForceLine::tried(wrench, least_squared);
+                let contact = sole(&push);
                 let told = is_in_range & contact.is_some_and(|found| found.active & is_number(&found));
                 (contact.map_or_else(nothing, |found| (found.point, found.normal, found.spin_torque)), told)
             },

@@ -39,6 +39,24 @@ fn moved<T: Real, S: SoftFingerSurface<T>>(
     }
 }
 
+/// A contact of the shape, if in a narrower type the force presses more steeply than the shape asks for.
+#[inline(always)]
+fn steeply_moved<T: Real>(
+    pose: &RigidTransform<T>,
+    push: &ForceLine<T>,
+    of_shape: impl Fn(&ForceLine<T>) -> Option<SoftContact<T>>,
+) -> Option<SoftContact<T>> {
+    let found = of_shape(&push.seen_from(pose))?;
+    let normal = pose.rotate(&found.normal);
+    let pressing = push.force().dot(&normal);
+    if is_asked_again::<T>()
+        && !(pressing * pressing >= flat_when_moved::<T>().whole_power(2) * push.squared())
+    {
+        return None;
+    }
+    Some(SoftContact { point: pose.transform_point(&found.point), normal, ..found })
+}
+
 impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     /// In double precision where the type is narrower and the shape knows: moving a wrench rounds it, and turning it by a
     /// rotation that is orthogonal to a few digits bends it.
@@ -81,16 +99,27 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for Posed<T, S> {
     /// rounds it.
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        let pose = self.sensor_from_shape();
-        let found = self.inner().sole_soft_contact(&push.seen_from(pose))?;
-        let normal = pose.rotate(&found.normal);
-        let pressing = push.force().dot(&normal);
-        if is_asked_again::<T>()
-            && !(pressing * pressing >= flat_when_moved::<T>().whole_power(2) * push.squared())
-        {
-            return None;
+        steeply_moved(
+            self.sensor_from_shape(),
+            push,
+            #[inline(always)]
+            |inside| self.inner().sole_soft_contact(inside),
+        )
+    }
+
+    #[inline(always)]
+    fn sole_soft_contacts_in_columns(&self) -> impl Fn(&ForceLine<T>) -> Option<SoftContact<T>> {
+        let (pose, of_shape) = (*self.sensor_from_shape(), self.inner().sole_soft_contacts_in_columns());
+        #[inline(always)]
+        move |push| {
+            // Not `&of_shape`, which the compiler would rather call.
+            steeply_moved(
+                &pose,
+                push,
+                #[inline(always)]
+                |inside| of_shape(inside),
+            )
         }
-        Some(SoftContact { point: pose.transform_point(&found.point), normal, ..found })
     }
 
     fn sole_soft_contact_in_double(&self, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {

@@ -57,6 +57,15 @@ macro_rules! soft_finger {
                 $columns
             })?
 
+            #[inline(always)]
+            fn sole_soft_contacts_in_columns(
+                &self,
+            ) -> impl Fn(&fingertip_surfaces::ForceLine<T>) -> Option<$crate::SoftContact<T>> {
+                let shape = *self;
+                #[inline(always)]
+                move |push| shape.sole_soft_contact_in_columns(push)
+            }
+
             $(fn sole_soft_contact_in_double(
                 &self,
                 $wide: &fingertip_wrench::Wrench<f64>,

@@ -147,6 +147,15 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         self.sole_soft_contact(push)
     }
 
+    /// The same as a function that holds copies of the numbers of the surface, which the compiler then reads once for a
+    /// column. The default reads them for every wrench.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn sole_soft_contacts_in_columns(&self) -> impl Fn(&ForceLine<T>) -> Option<SoftContact<T>> {
+        #[inline(always)]
+        |push| self.sole_soft_contact_in_columns(push)
+    }
+
     /// The same by the closed form in double precision, for a narrower type, of which it is right to the last digit: what
     /// double precision's own rounding may show in it is `None`, as the default answers. [`SoftFinger`](crate::SoftFinger)
     /// asks for it after [`sole_soft_contact`](Self::sole_soft_contact).
@@ -234,6 +243,11 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     #[inline(always)]
     fn sole_soft_contact_in_columns(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         (**self).sole_soft_contact_in_columns(push)
+    }
+
+    #[inline(always)]
+    fn sole_soft_contacts_in_columns(&self) -> impl Fn(&ForceLine<T>) -> Option<SoftContact<T>> {
+        (**self).sole_soft_contacts_in_columns()
     }
 
     #[inline]
