@@ -78,6 +78,10 @@ impl<T: Real> Knot<T> {
 /// assert_eq!(height(&tip.knots()), 0.010);
 /// # Ok::<(), fingertip_surfaces::BadShape>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no profile of `{T}`",
+    note = "the points of a profile are kept as an array, a slice or a vector of `Knot`s"
+)]
 pub trait Profile<T: Real> {
     /// Its points.
     fn knots(&self) -> impl Iterator<Item = Knot<T>>;
