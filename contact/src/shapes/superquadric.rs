@@ -290,6 +290,9 @@ soft_finger!(
     |shape, wrench, last, visit| search_finely(shape, wrench, last, &mut visit),
     sole | shape,
     push | quickly(shape, push),
+    all in double | shape,
+    wrench,
+    visit | Some(search(&shape.in_double()?, wrench, None, visit)),
     patch | shape,
     _ | shape.in_double().map(LocalSurface::Superquadric),
     // The three semi-axes (its exponents are chosen, not measured). As for any level function of `x/a`:

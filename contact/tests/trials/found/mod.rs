@@ -3,6 +3,7 @@
 mod boxes;
 mod posed;
 mod revolutions;
+mod superquadrics;
 
 use fingertip_contact::{ContactModel, SoftFinger, SoftFingerSurface};
 use fingertip_surfaces::{CappedCylinder, Capsule, Cone, Cylinder, Ellipsoid, Frustum, Superquadric, Torus};
