@@ -7,11 +7,11 @@
 use core::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use fingertip::contact::batch::{BatchSurface, Contacts, Wrenches};
 use fingertip::contact::*;
 use fingertip::surfaces::testing::ball_of_triangles;
 use fingertip::surfaces::*;
 use fingertip::wrench::{Line, Real, Wrench};
+use fingertip_benches::Columns;
 use nalgebra::Vector3;
 use parry3d::query::{Ray, RayCast};
 use rand::{RngExt, SeedableRng};
@@ -176,26 +176,14 @@ fn point_contact<T: Real>(c: &mut Criterion, scalar: &str) {
 }
 
 fn batch<T: Real>(c: &mut Criterion, scalar: &str) {
-    let all = wrenches::<T>(0.013);
-    let column = |k: usize| -> Vec<T> { all.iter().map(|w| w.components()[k]).collect() };
-    let columns: [Vec<T>; 6] = core::array::from_fn(column);
+    let mut columns = Columns::new(wrenches::<T>(0.013));
     let mut group = c.benchmark_group(format!("batch {scalar}"));
     group.throughput(Throughput::Elements(COUNT as u64));
-    let [fx, fy, fz, tx, ty, tz] = columns.each_ref().map(|column| &column[..]);
-    let mut out: [Vec<T>; 7] = core::array::from_fn(|_| vec![T::zero(); COUNT]);
     let l = T::literal;
     macro_rules! shape {
         ($name:literal, $shape:expr) => {
             let surface = $shape.unwrap();
-            group.bench_function($name, |b| {
-                b.iter(|| {
-                    let [px, py, pz, nx, ny, nz, gap] = &mut out;
-                    surface.contacts(
-                        black_box(Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] }),
-                        Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap },
-                    );
-                });
-            });
+            group.bench_function($name, |b| b.iter(|| columns.point_contacts(&surface)));
         };
     }
     shape!("sphere", Sphere::centred(l(0.013)));

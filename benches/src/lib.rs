@@ -1,8 +1,11 @@
 //! Benchmarks of the fingertip workspace; see the `benches` folder. This library holds the inputs
 //! that they share.
 
+mod columns;
 mod hand_batch;
 pub mod hand_written;
+
+pub use columns::Columns;
 
 use fingertip_wrench::gauge_layout::{GaugeLayout, LayoutError, ThinWalledBeam};
 use fingertip_wrench::{Real, SensorMatrix};

@@ -4,9 +4,8 @@
 use core::hint::black_box;
 
 use fingertip_benches::hand_written::{HandA, HandB};
-use fingertip_benches::{paper_sensor, signals};
-use fingertip_contact::batch::{BatchSurface, Contacts, SoftContacts, Wrenches};
-use fingertip_contact::{ContactModel, PointContact, SoftFinger, SoftFingerSurface};
+use fingertip_benches::{Columns, paper_sensor, signals};
+use fingertip_contact::{ContactModel, PointContact, SoftFinger};
 use fingertip_friction::{
     Coulomb, DropDetector, ForceNoise, FrictionModel, LikelihoodRatioDetector, NormalForceGate, PowerLimit,
     RatioThreshold, SlipDetector, SoftFingerLimit,
@@ -137,70 +136,32 @@ fn contacts() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Wrenches as columns, and room for what is found of them.
-struct Columns {
-    soft: SoftFinger<f32>,
-    given: [Vec<f32>; 6],
-    found: [Vec<f32>; 7],
-}
-
-impl Columns {
-    /// As many as are taken together.
-    const COUNT: usize = 64;
-
-    fn of(wrenches: &[Wrench<f32>]) -> Result<Self, Failure> {
-        let column = |k: usize| {
-            wrenches.iter().cycle().take(Self::COUNT).map(|wrench| wrench.components()[k]).collect()
-        };
-        Ok(Self {
-            soft: SoftFinger::new(0.1)?,
-            given: core::array::from_fn(column),
-            found: core::array::from_fn(|_| vec![0.0; Self::COUNT]),
-        })
-    }
-
-    fn wrenches(given: &[Vec<f32>; 6]) -> Wrenches<'_, f32> {
-        let [fx, fy, fz, tx, ty, tz] = given.each_ref().map(|column| &column[..]);
-        Wrenches { force: [fx, fy, fz], torque: [tx, ty, tz] }
-    }
-
-    fn points(&mut self, surface: &impl BatchSurface<f32>) {
-        let [px, py, pz, nx, ny, nz, gap] = self.found.each_mut().map(|column| &mut column[..]);
-        let contacts = Contacts { point: [px, py, pz], normal: [nx, ny, nz], gap };
-        surface.contacts(Self::wrenches(&self.given), contacts);
-    }
-
-    fn soft(&mut self, surface: &impl SoftFingerSurface<f32>) {
-        let [px, py, pz, nx, ny, nz, spin_torque] = self.found.each_mut().map(|column| &mut column[..]);
-        let contacts = SoftContacts { point: [px, py, pz], normal: [nx, ny, nz], spin_torque };
-        self.soft.resolve_all(surface, Self::wrenches(&self.given), contacts);
-    }
-}
-
-/// Each of 64 wrenches. Where the compiler makes no vectors they take four times as many instructions.
+/// Each of 64 wrenches. Where the compiler makes no vectors they take six times as many instructions.
 fn columns() -> Result<(), Failure> {
-    let (wrenches, twists) = (pushes(), twists());
+    let (wrenches, twists, soft) = (pushes(), twists(), SoftFinger::new(0.1)?);
     let (centre, up) = (Vector3::zeros(), Vector3::z());
     let (cone, capsule) =
         (Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?, Capsule::new(centre, up, 0.009, 0.004)?);
     let place = RigidTransform::translation(Vector3::new(1e-3, 0.0, 0.0));
     macro_rules! columns {
-        ($($name:ident: $kind:ty, $wrenches:ident, $method:ident = $shape:expr;)*) => { $(
-            count!($name, ($shape, Columns::of(&$wrenches)?), ($kind, Columns), [()], |s, none: ()| {
-                let (none, (shape, columns)) = (*none, s);
-                columns.$method(shape);
-                none
-            });
+        ($($name:ident: $kind:ty, $wrenches:ident = $shape:expr, |$state:ident| $call:expr;)*) => { $(
+            count!(
+                $name,
+                ($shape, soft, Columns::new($wrenches.iter().cycle().take(64).copied())),
+                ($kind, SoftFinger<f32>, Columns<f32>),
+                [()],
+                |$state, _none: ()| $call
+            );
         )* };
     }
     columns! {
-        point_column_on_cone: Cone<f32>, wrenches, points = cone;
-        point_column_on_frustum: Frustum<f32>, wrenches, points = Frustum::new(up * -0.012, up, 0.012, 0.005, 0.024)?;
-        soft_column_on_sphere: Sphere<f32>, wrenches, soft = Sphere::centred(0.013)?;
-        soft_column_on_plane: Plane<f32>, wrenches, soft = Plane::new(centre, up)?;
-        soft_column_on_cylinder: Cylinder<f32>, twists, soft = Cylinder::new(centre, Vector3::x(), 0.009)?;
-        soft_column_on_cone: Cone<f32>, twists, soft = cone;
-        soft_column_on_posed_capsule: Posed<f32, Capsule<f32>>, twists, soft = Posed::new(capsule, place);
+        point_column_on_cone: Cone<f32>, wrenches = cone, |s| s.2.point_contacts(&s.0);
+        point_column_on_frustum: Frustum<f32>, wrenches = Frustum::new(up * -0.012, up, 0.012, 0.005, 0.024)?, |s| s.2.point_contacts(&s.0);
+        soft_column_on_sphere: Sphere<f32>, wrenches = Sphere::centred(0.013)?, |s| s.2.soft_contacts(&s.1, &s.0);
+        soft_column_on_plane: Plane<f32>, wrenches = Plane::new(centre, up)?, |s| s.2.soft_contacts(&s.1, &s.0);
+        soft_column_on_cylinder: Cylinder<f32>, twists = Cylinder::new(centre, Vector3::x(), 0.009)?, |s| s.2.soft_contacts(&s.1, &s.0);
+        soft_column_on_cone: Cone<f32>, twists = cone, |s| s.2.soft_contacts(&s.1, &s.0);
+        soft_column_on_posed_capsule: Posed<f32, Capsule<f32>>, twists = Posed::new(capsule, place), |s| s.2.soft_contacts(&s.1, &s.0);
     }
     Ok(())
 }
