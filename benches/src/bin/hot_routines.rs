@@ -139,7 +139,7 @@ fn contacts() -> Result<(), Failure> {
 /// Each of 64 wrenches. Where the compiler makes no vectors they take six times as many instructions.
 fn columns() -> Result<(), Failure> {
     let (wrenches, twists, soft) = (pushes(), twists(), SoftFinger::new(0.1)?);
-    let (centre, up) = (Vector3::zeros(), Vector3::z());
+    let (centre, up, axes) = (Vector3::zeros(), Vector3::z(), Vector3::new(0.014, 0.011, 0.009));
     let (cone, capsule) =
         (Cone::new(Vector3::new(0.0, 0.0, 0.02), -up, 0.6)?, Capsule::new(centre, up, 0.009, 0.004)?);
     let place = RigidTransform::translation(Vector3::new(1e-3, 0.0, 0.0));
@@ -161,6 +161,8 @@ fn columns() -> Result<(), Failure> {
         soft_column_on_plane: Plane<f32>, wrenches = Plane::new(centre, up)?, |s| s.2.soft_contacts(&s.1, &s.0);
         soft_column_on_cylinder: Cylinder<f32>, twists = Cylinder::new(centre, Vector3::x(), 0.009)?, |s| s.2.soft_contacts(&s.1, &s.0);
         soft_column_on_cone: Cone<f32>, twists = cone, |s| s.2.soft_contacts(&s.1, &s.0);
+        soft_column_on_frustum: Frustum<f32>, twists = Frustum::new(up * -0.012, up, 0.012, 0.005, 0.024)?, |s| s.2.soft_contacts(&s.1, &s.0);
+        soft_column_on_rounded_box: RoundedBox<f32>, twists = RoundedBox::new(axes, 0.003)?, |s| s.2.soft_contacts(&s.1, &s.0);
         soft_column_on_posed_capsule: Posed<f32, Capsule<f32>>, twists = Posed::new(capsule, place), |s| s.2.soft_contacts(&s.1, &s.0);
     }
     Ok(())

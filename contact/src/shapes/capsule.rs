@@ -5,7 +5,7 @@ use fingertip_surfaces::{ActiveSurface, Capsule, ForceLine, LocalSurface, Smooth
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
-use super::cylinder::{on_round_side, steeply_on_round_side};
+use super::cylinder::{bears, on_round_side, steeply_on_round_side};
 use super::sphere::{on_sphere, steeply_on_ball};
 #[cfg(feature = "batch")]
 use crate::batch::Lines;
@@ -116,8 +116,8 @@ fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Optio
     };
     let contact = steeply_on_ball(&(centre + end * half), radius, T::one() / radius, push)?;
     // It presses steeply, as on any ball; and the spin torque does not rule.
-    let (lever, spin_torque) = (radius * steady_levers(), contact.spin_torque);
-    let is_steady = spin_torque * spin_torque <= push.squared() * (lever * lever);
+    let pressing = push.force().dot(&contact.normal);
+    let is_steady = bears(pressing * pressing, contact.spin_torque, radius * steady_levers());
     ((contact.normal.dot(&end) >= T::zero()) & is_steady).then_some(contact)
 }
 

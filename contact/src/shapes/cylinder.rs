@@ -95,8 +95,8 @@ pub(super) fn on_round_side<T: Real>(
 }
 
 /// On the side of an unbounded circular cylinder, with the height along its axis from its centre, for a force that
-/// presses at no flat angle and a spin torque that is not more than the force has at a lever of so many radii. What is
-/// divided by the radius may be multiplied by what is known of it.
+/// presses at no flat angle and a spin torque that a lever of so many radii [`bears`]. What is divided by the radius may be
+/// multiplied by what is known of it.
 ///
 /// The closed form of [`on_cylinder`] for equal semi-axes, without a frame: with the parts of force and torque along
 /// the axis `f_a`, `m_a` and across it, `q = m_a/R` and `s = √(|f_⊥|² − q²)`,
@@ -125,14 +125,21 @@ pub(super) fn steeply_on_round_side<T: Real>(
     }
     let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
     let spin_torque = -force.dot(&torque) / pressing;
-    let lever = radius * levers;
-    if !(spin_torque * spin_torque <= push.squared() * (lever * lever)) {
+    if !bears(pressing_squared, spin_torque, radius * levers) {
         return None;
     }
     let normal = (aside * -turning - across * pressing) * inverse;
     let height = (torque.dot(&aside) - radius * along * pressing + spin_torque * turning) * inverse;
     let point = centre + normal * radius + axis * height;
     Some((SoftContact { point, normal, spin_torque, active: true }, height))
+}
+
+/// Whether a spin torque is no more than the force has at this lever, which is as much longer as the force presses more than at
+/// the flattest angle that a shortcut takes: rounding grows with the one as with the other. False for a NaN.
+#[inline(always)]
+pub(super) fn bears<T: Real>(pressing_squared: T, spin_torque: T, lever: T) -> bool {
+    let at_flattest = spin_torque * flat::<T>();
+    at_flattest * at_flattest <= pressing_squared * (lever * lever)
 }
 
 #[inline(always)]

@@ -82,21 +82,18 @@ fn on_straight_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<S
     on_round_side(&base, &axis, radius, &wrench.force(), &wrench.torque_about(&base))
 }
 
-/// On the side, unbounded, counted from the narrower end: so nothing cancels next to a tip.
+/// On the side, unbounded.
 fn on_side<T: Real>(solid: &Frustum<T>, wrench: &Wrench<T>) -> Option<SoftContact<T>> {
-    let mut side = slanted_side(solid);
-    if solid.top_radius() < side.radius {
-        side.origin += side.axis * solid.height();
-        side.radius = solid.top_radius();
-    }
-    side.contact(wrench).ok()
+    narrow_side(solid).0.contact(wrench).ok()
 }
 
-/// The side, unbounded, from the base.
+/// The side, unbounded, from the narrower end, so that nothing cancels next to a tip; and how high over the base that is.
 #[inline(always)]
-fn slanted_side<T: Real>(solid: &Frustum<T>) -> SlantedSide<T> {
+fn narrow_side<T: Real>(solid: &Frustum<T>) -> (SlantedSide<T>, T) {
     let (sine, cosine) = (solid.taper() * solid.side_cosine(), solid.side_cosine());
-    SlantedSide { origin: solid.base_centre(), axis: solid.axis(), radius: solid.base_radius(), sine, cosine }
+    let (origin, start) = solid.narrow_end();
+    let radius = solid.base_radius().min(solid.top_radius());
+    (SlantedSide { origin, axis: solid.axis(), radius, sine, cosine }, start)
 }
 
 /// The contact of a force that presses steeply, on the side or within the end that it presses on: a convex body has
@@ -105,7 +102,9 @@ fn slanted_side<T: Real>(solid: &Frustum<T>) -> SlantedSide<T> {
 fn steeply_on_frustum<T: Real>(solid: &Frustum<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
     let (base, axis, height) = (solid.base_centre(), solid.axis(), solid.height());
     let hair = hair(solid);
-    if let Some((contact, above)) = slanted_side(solid).steep_contact(push)
+    let (side, start) = narrow_side(solid);
+    if let Some((contact, along)) = side.steep_contact(push)
+        && let above = start + along
         && above >= hair
         && above <= height - hair
     {
@@ -131,7 +130,9 @@ fn steeply_on_frustum<T: Real>(solid: &Frustum<T>, push: &ForceLine<T>) -> Optio
 fn exactly_on_frustum<T: Real>(solid: &Frustum<T>, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
     let double = solid.in_double()?;
     let push = ForceLine::new(wrench, ForceLine::least_squared())?;
-    let (contact, above) = slanted_side(&double).contact_for_narrower(&push)?;
+    let (side, start) = narrow_side(&double);
+    let (contact, along) = side.contact_for_narrower(&push)?;
+    let above = start + along;
     // Rounding is multiplied by as much there.
     let hair = hair(&double) * 1e6;
     (above >= hair && above <= double.height() - hair).then_some(contact)

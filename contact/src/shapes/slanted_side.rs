@@ -27,7 +27,8 @@ fn is_above<T: Real>(flat: T, push: &ForceLine<T>, pressing: T, twist: T) -> boo
 /// A straight side around an axis, unbounded, as far as it goes before the axis.
 #[derive(Clone, Copy)]
 pub(super) struct SlantedSide<T: Real> {
-    /// A point of the axis, and the axis, a unit vector.
+    /// A point of the axis, no farther from the tip than any contact asked for: next to a tip the way from elsewhere takes
+    /// digits. And the axis, a unit vector.
     pub(super) origin: Vector3<T>,
     pub(super) axis: Vector3<T>,
     /// Around that point.
@@ -91,9 +92,8 @@ impl<T: Real> SlantedSide<T> {
         // What rounding does is multiplied by no more than `(1 + |τ κ|/|f|)²/(f·n/|f|)²`, `κ` being the curvature.
         let is_steady = is_above(flat, push, pressing, spin_torque * (cosine / around));
         let point = origin + (outward * around + axis * height);
-        // Nor so near to the tip that the way there from the origin takes digits. False for a NaN, too.
-        let is_near = (around > T::zero()) & (around * T::literal(4.0) >= radius);
-        let found = is_steady & (pressing > T::zero()) & is_near;
+        // The part beyond the tip is no side. False for a NaN, too.
+        let found = is_steady & (pressing > T::zero()) & (around > T::zero());
         found.then_some((SoftContact { point, normal, spin_torque, active: true }, height))
     }
 

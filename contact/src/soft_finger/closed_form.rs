@@ -166,8 +166,8 @@ macro_rules! part_of {
 
 pub(crate) use part_of;
 
-/// Of a round surface, how many radii the lever is at which a force may have the spin torque, if rounding is not to grow by
-/// more than the type can bear: it grows with the square.
+/// Of a round surface, how many radii the lever is at which a force at the flattest angle may have the spin torque, if rounding
+/// is not to grow by more than the type can bear: it grows with the square.
 #[inline(always)]
 pub(crate) fn steady_levers<T: Real>() -> T {
     T::literal(if T::EPSILON.to_f64() > f64::EPSILON { 0.5 } else { 4.0 })

@@ -45,6 +45,8 @@ pub struct Frustum<T: Real> {
     side_sine: T,
     /// A hair across the axis.
     least_across: Vector3<T>,
+    /// Centre of the narrower end, and how high over the base that is.
+    narrow_end: (Vector3<T>, T),
     /// Halfway up the axis, and the radius there.
     middle: Vector3<T>,
     middle_radius: T,
@@ -84,10 +86,12 @@ impl<T: Real> Frustum<T> {
         let side_cosine = T::one() / hypotenuse(T::one(), taper);
         let (half_height, middle_radius) =
             (height * T::literal(0.5), (base_radius + top_radius) * T::literal(0.5));
+        let narrow_height = if top_radius < base_radius { height } else { T::zero() };
         // Where side and end meet, rounding may find a line outside both: a hair's breadth.
         let hair = (half_height + middle_radius) * (T::EPSILON * T::literal(16.0));
         Ok(Self {
             axis,
+            narrow_end: (axis.origin + axis.direction * narrow_height, narrow_height),
             middle: axis.origin + axis.direction * half_height,
             middle_radius,
             half_height,
@@ -143,6 +147,13 @@ impl<T: Real> Frustum<T> {
     #[must_use]
     pub const fn top_radius(&self) -> T {
         self.top_radius
+    }
+
+    /// Centre of the narrower end \[m\], and how high over the base that is \[m\].
+    #[inline]
+    #[doc(hidden)]
+    pub const fn narrow_end(&self) -> (Vector3<T>, T) {
+        self.narrow_end
     }
 
     /// By how much the radius shrinks per height.

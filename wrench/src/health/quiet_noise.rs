@@ -116,3 +116,49 @@ impl<T: Real> QuietNoise<T> {
         (self.blocks >= Self::FEWEST).then_some(self.variance)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::QuietNoise;
+
+    /// A block that goes to and fro between 0 and this, which it begins with: its variance is half of the square.
+    fn block(width: f64) -> [f64; 32] {
+        core::array::from_fn(|k| if k % 2 == 0 { width } else { 0.0 })
+    }
+
+    fn after(blocks: impl IntoIterator<Item = [f64; 32]>) -> Option<f64> {
+        let mut noise = QuietNoise::new();
+        blocks.into_iter().for_each(|block| noise.add_all(&block, 0.0));
+        noise.variance()
+    }
+
+    #[test]
+    fn eight_blocks_tell_the_noise_wherever_they_begin() {
+        for width in [2.0, -2.0] {
+            assert_eq!(after([block(width); 7]), None);
+            let variance = after([block(width); 8]).unwrap();
+            assert!((1.0..=2.0).contains(&variance), "{variance}");
+        }
+    }
+
+    #[test]
+    fn a_jump_is_no_noise() {
+        let jump = core::array::from_fn(|k| block(2.0)[k] + if k < 16 { 0.0 } else { 100.0 });
+        assert_eq!(after([jump; 20]), None);
+    }
+
+    /// A block that is noisier takes the quantile up by a quarter of the pace, which is 2 over the number of blocks, and a
+    /// fiftieth in the end.
+    #[test]
+    fn the_quantile_follows_quickly_at_first_and_never_stops() {
+        let after = |quiet, noisy| {
+            let blocks = core::iter::repeat_n(block(2.0), quiet).chain(core::iter::repeat_n(block(20.0), noisy));
+            after(blocks).unwrap()
+        };
+        let paces = |first: u32, last: u32| (first..=last).map(|k| 1.0 + 0.25 * (2.0 / f64::from(k)).max(0.02));
+        for (noisy, last) in [(36, 40), (200, 204)] {
+            let expected = 2.0 * paces(5, last).product::<f64>();
+            assert!((after(4, noisy) - expected).abs() < 1e-9 * expected, "{} {expected}", after(4, noisy));
+        }
+    }
+}

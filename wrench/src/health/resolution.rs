@@ -107,3 +107,42 @@ impl<T: Real> Resolution<T> {
         self.changes >= Self::MANY || self.step().is_some()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Resolution;
+
+    /// Of readings that go up by these.
+    fn of_changes(changes: impl IntoIterator<Item = f64>) -> Resolution<f64> {
+        let (mut resolution, mut reading) = (Resolution::default(), 0.0);
+        resolution.add(reading);
+        for change in changes {
+            reading += change;
+            resolution.add(reading);
+        }
+        resolution
+    }
+
+    #[test]
+    fn a_reading_that_is_no_number_is_as_if_it_were_not_there() {
+        let mut resolution = Resolution::default();
+        for reading in [1.0, f64::NAN, 1.5] {
+            resolution.add(reading);
+        }
+        assert_eq!(resolution.tells_up_to(), Some((1.5, 4.5)));
+    }
+
+    #[test]
+    fn changes_of_many_steps_say_nothing_and_broken_ones_that_there_is_none() {
+        let singles = [1.0; 16];
+        assert_eq!(of_changes(singles.into_iter().chain([8.5; 20])).step(), Some(1.0));
+        assert_eq!(of_changes(singles.into_iter().chain([2.5])).step(), Some(1.0));
+        assert_eq!(of_changes(singles.into_iter().chain([2.5; 20])).step(), None);
+    }
+
+    #[test]
+    fn the_step_is_the_mean_of_single_ones() {
+        let step = of_changes([1.0, 1.05, 0.95, 1.05, 0.95, 1.05].repeat(4)).step().unwrap();
+        assert!((step - 6.05 / 6.0).abs() < 1e-9, "{step}");
+    }
+}

@@ -257,6 +257,7 @@ mod tests {
         for time in [0.0, -1.0, f64::NAN, f64::INFINITY, 5e-324] {
             assert_eq!(new(time, 0.1), Err(BadCreep::Time));
         }
+        assert_eq!(new(f64::MIN_POSITIVE, 0.1), Ok(()));
         assert_eq!(new(1.0, f64::NAN), Err(BadCreep::Share));
         assert_eq!(new(1.0, f64::INFINITY), Err(BadCreep::Share));
         assert_eq!(new(1.0, 1.0), Err(BadCreep::NothingLeft));

@@ -112,6 +112,8 @@ mod tests {
         let given: [f64; 6] = core::array::from_fn(|k| line.follow(&SVector::<f64, 1>::new(k as f64), 1.0).x);
         assert_eq!(given, [0.0, 0.0, 0.0, 0.0, 1.0, 2.0]);
         assert!(!line.reaches(1.0));
+        let short = DelayLine::<f64, 1, 4>::new(0.01).unwrap();
+        assert!(short.reaches(200.0) && !short.reaches(201.0));
         let one = SVector::<f64, 1>::new(7.0);
         assert_eq!(DelayLine::<f64, 1, 0>::new(1.0).unwrap().follow(&one, 1.0), one);
         for step in [f64::NAN, f64::INFINITY, -1.0, 1e308, 1e308] {

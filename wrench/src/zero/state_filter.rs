@@ -180,6 +180,7 @@ mod tests {
         for tau in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-45] {
             assert_eq!(StateFilter::<f32, 1>::new(tau), Err(BadInertialUnit::TimeConstant));
         }
+        assert!(StateFilter::<f32, 1>::new(f32::MIN_POSITIVE).is_ok());
     }
 
     /// A sample that was no number is bridged by a straight line.

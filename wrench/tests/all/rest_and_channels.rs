@@ -63,11 +63,16 @@ fn the_resolution_is_found_in_the_readings() {
     let (mut readings, mut steps) = (Vec::<Vector6<f64>>::new(), Vector6::repeat(f64::INFINITY));
     for i in 0..200 {
         // Gauge g in steps of g + 1 or more, gauge 5 without any change; gauge 2 drifts.
-        let reading = Vector6::from_fn(|gauge, _| {
+        let mut reading = Vector6::from_fn(|gauge, _| {
             let size = (gauge + 1) as f64;
             let noise = if gauge == 5 { 0.0 } else { normal(&mut random).round() };
             (noise + if gauge == 2 { (f64::from(i) / 10.0).round() } else { 0.0 }) * size
         });
+        // In the end none changes, and then each but gauge 5 by three of its steps.
+        if i >= 198 {
+            let change = Vector6::new(3.0, 6.0, 9.0, 12.0, 15.0, 0.0);
+            reading = readings[197] + if i == 198 { Vector6::zeros() } else { change };
+        }
         if let Some(before) = readings.last() {
             let change: Vector6<f64> = (reading - before).abs();
             steps =

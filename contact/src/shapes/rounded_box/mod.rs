@@ -10,7 +10,7 @@ use fingertip_surfaces::{ForceLine, LocalSurface, RoundedBox, SmoothSurface, Sph
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
-use self::parts::{steeply_in_columns, steeply_on_rounded_box};
+use self::parts::{steeply_in_columns, steeply_on_an_edge, steeply_on_rounded_box};
 use super::cylinder::on_round_side;
 use super::plane::on_plane;
 use super::sphere::on_sphere;
@@ -141,6 +141,7 @@ fn rounded_box_in_double<T: Real>(
 fn steeply_in_double(double: &RoundedBox<f64>, wrench: &Wrench<f64>) -> Option<SoftContact<f64>> {
     let push = ForceLine::new(wrench, ForceLine::least_squared())?;
     steeply_on_rounded_box(double, &push, LEVERS_IN_DOUBLE)
+        .or_else(|| steeply_on_an_edge(double, &push, LEVERS_IN_DOUBLE))
 }
 
 soft_finger!(

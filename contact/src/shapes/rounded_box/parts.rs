@@ -8,17 +8,16 @@ use nalgebra::Vector3;
 
 use crate::SoftContact;
 use crate::model::flat;
-use crate::shapes::cylinder::steeply_on_round_side;
+use crate::shapes::cylinder::{bears, steeply_on_round_side};
 use crate::shapes::sphere::steeply_on_ball;
-use crate::soft_finger::closed_form::{is_steady, steady_levers};
+use crate::soft_finger::closed_form::steady_levers;
 
 /// Faces, edges and corners that are tried before the long way is taken.
 const PARTS: usize = 5;
 
 /// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face through whose
 /// plane the line of action comes last, and then of the part that the contact lies on whose place the part before does not
-/// hold. A convex body has no other. On edges and corners the spin torque may be what the force has at a lever of so many
-/// radii.
+/// hold. A convex body has no other. `levers` as [`bears`] has them, on edges and corners.
 #[inline(always)]
 pub(super) fn steeply_on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
@@ -46,8 +45,26 @@ pub(super) fn steeply_on_rounded_box<T: Real>(
     None
 }
 
-/// The same without a branch, of a face and of the edge or corner behind it. A second one, which few need, would take a
-/// third of the time of all.
+/// On an edge, of a force that on its way there misses the ball of a corner, so that [`steeply_on_rounded_box`] does not come
+/// to it.
+pub(super) fn steeply_on_an_edge<T: Real>(
+    shape: &RoundedBox<T>,
+    push: &ForceLine<T>,
+    levers: T,
+) -> Option<SoftContact<T>> {
+    let parts = Parts::new(shape, levers);
+    let signs = [T::one(), -T::one()];
+    let around = |k: usize| signs.into_iter().flat_map(move |a| signs.map(|b| (k, a, b)));
+    (0..3).flat_map(around).find_map(|(k, a, b)| {
+        let mut side = Vector3::zeros();
+        (side[(k + 1) % 3], side[(k + 2) % 3]) = (a, b);
+        let found = parts.on_edge(&side, push)?;
+        ((parts.side_of(&side, &found) == side) & parts.is_sure(&side, &found)).then_some(found)
+    })
+}
+
+/// [`steeply_on_rounded_box`] without a branch, of a face and of the edge or corner behind it. A second one, which few need,
+/// would take longer for all than these few do one by one.
 #[inline(always)]
 pub(super) fn steeply_in_columns<T: Real>(
     shape: &RoundedBox<T>,
@@ -103,7 +120,7 @@ struct Parts<T: Real> {
     inner: Vector3<T>,
     rounding: T,
     curvature: T,
-    /// In radii, the longest lever at which a force may have the spin torque on edges and corners.
+    /// Of edges and corners, as [`bears`] has them.
     levers: T,
 }
 
@@ -149,7 +166,10 @@ impl<T: Real> Parts<T> {
     #[inline(always)]
     fn on_corner(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         let found = steeply_on_ball(&self.core.component_mul(side), self.rounding, self.curvature, push);
-        found.filter(|contact| is_steady(push, contact, self.rounding * self.levers))
+        found.filter(|contact| {
+            let pressing = -push.force().dot(&contact.normal);
+            bears(pressing * pressing, contact.spin_torque, self.rounding * self.levers)
+        })
     }
 
     /// On an edge or a corner, without a branch, the part that the contact is on then, and whether it is one.
