@@ -152,10 +152,12 @@ mod tests {
     #[test]
     fn the_quantile_follows_quickly_at_first_and_never_stops() {
         let after = |quiet, noisy| {
-            let blocks = core::iter::repeat_n(block(2.0), quiet).chain(core::iter::repeat_n(block(20.0), noisy));
+            let blocks =
+                core::iter::repeat_n(block(2.0), quiet).chain(core::iter::repeat_n(block(20.0), noisy));
             after(blocks).unwrap()
         };
-        let paces = |first: u32, last: u32| (first..=last).map(|k| 1.0 + 0.25 * (2.0 / f64::from(k)).max(0.02));
+        let paces =
+            |first: u32, last: u32| (first..=last).map(|k| 1.0 + 0.25 * (2.0 / f64::from(k)).max(0.02));
         for (noisy, last) in [(36, 40), (200, 204)] {
             let expected = 2.0 * paces(5, last).product::<f64>();
             assert!((after(4, noisy) - expected).abs() < 1e-9 * expected, "{} {expected}", after(4, noisy));
