@@ -138,7 +138,9 @@ mod tests {
     fn refuses_touches_that_do_not_press() {
         let pole = DesignTouch { point: Vector3::x() * 0.013, normal: Vector3::x(), force: Vector3::x() };
         assert!(ContactWeight::over([pole]).is_err());
-        assert!(ContactWeight::over([DesignTouch { force: Vector3::repeat(f64::NAN), ..pole }]).is_err());
+        for along in [Vector3::repeat(f64::NAN), Vector3::y(), Vector3::zeros()] {
+            assert!(ContactWeight::over([DesignTouch { force: along, ..pole }]).is_err());
+        }
         assert!(ContactWeight::over([]).is_err());
         assert!(ContactWeight::on_sphere(f64::NAN, 1.0, 0.5, 1.0).is_err());
         assert!(ContactWeight::on_sphere(0.013, 4.0, 0.5, 1.0).is_err());

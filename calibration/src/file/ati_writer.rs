@@ -149,6 +149,7 @@ mod tests {
             ("max=\"25\"", "max=\"0\"", ["Axis Fz", "max"]),
             ("max=\"25\"", "", ["Axis Fz", "max"]),
             ("scale=\"2\"", "scale=\"x\"", ["Axis Tx", "scale"]),
+            ("scale=\"2\"", "scale=\"0\"", ["Axis Tx", "scale"]),
             ("Name=\"Tz\"", "Name=\"Tw\"", ["Axis Tz", "missing"]),
             ("Dz=\"0.5\"", "Dz=\"inf\"", ["BasicTransform", "Dz"]),
         ] {

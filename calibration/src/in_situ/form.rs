@@ -215,6 +215,15 @@ mod tests {
         }
     }
 
+    #[test]
+    fn what_is_no_touch_is_left_out() {
+        let mut gathered = PointContactForm::new(2);
+        for bad in [&[0.0, 0.0][..], &[1.0], &[1.0, f64::NAN], &[f64::INFINITY, 1.0]] {
+            assert!(!gathered.push(bad), "{bad:?}");
+        }
+        assert!(gathered.push(&[1e-150, 0.0]));
+    }
+
     /// Of more eigenvalues than six the others are none: they have no sign.
     #[test]
     fn signs_are_counted_apart() {
