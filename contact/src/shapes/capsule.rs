@@ -5,8 +5,8 @@ use fingertip_surfaces::{ActiveSurface, Capsule, ForceLine, LocalSurface, Smooth
 use fingertip_wrench::{Real, RigidTransform, Wrench};
 use nalgebra::Vector3;
 
-use super::cylinder::{bears, on_round_side, steeply_on_round_side};
-use super::sphere::{on_sphere, steeply_on_ball};
+use super::cylinder::{on_round_side, steeply_on_round_side};
+use super::sphere::{on_sphere, steeply_on_round_end};
 #[cfg(feature = "batch")]
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
@@ -114,11 +114,9 @@ fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Optio
         // Along the axis.
         None => -axis * push.force().dot(&axis).signum(),
     };
-    let contact = steeply_on_ball(&(centre + end * half), radius, T::one() / radius, push)?;
-    // It presses steeply, as on any ball; and the spin torque does not rule.
-    let pressing = push.force().dot(&contact.normal);
-    let is_steady = bears(pressing * pressing, contact.spin_torque, radius * steady_levers());
-    ((contact.normal.dot(&end) >= T::zero()) & is_steady).then_some(contact)
+    let centre = centre + end * half;
+    let contact = steeply_on_round_end(&centre, radius, T::one() / radius, steady_levers(), push)?;
+    (contact.normal.dot(&end) >= T::zero()).then_some(contact)
 }
 
 soft_finger!(

@@ -7,6 +7,7 @@ use fingertip_surfaces::{ForceLine, Sphere, SphericalCap};
 use fingertip_wrench::{Real, Wrench};
 use nalgebra::Vector3;
 
+use super::cylinder::bears;
 #[cfg(feature = "batch")]
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
@@ -68,6 +69,21 @@ pub(super) fn steeply_on_ball<T: Real>(
         normal,
         spin_torque: solved.spin * radius,
         active: true,
+    })
+}
+
+/// The same on an end of a body, under a spin torque that a lever of so many radii [`bears`].
+#[inline(always)]
+pub(super) fn steeply_on_round_end<T: Real>(
+    centre: &Vector3<T>,
+    radius: T,
+    curvature: T,
+    levers: T,
+    push: &ForceLine<T>,
+) -> Option<SoftContact<T>> {
+    steeply_on_ball(centre, radius, curvature, push).filter(|contact| {
+        let pressing = push.force().dot(&contact.normal);
+        bears(pressing * pressing, contact.spin_torque, radius * levers)
     })
 }
 

@@ -121,7 +121,7 @@ fn poses_and_parts() {
     let (part, whole) = (Trimmed::new(shape, |point: &Vector3<f32>| point.x > 0.002), shape);
     let model = SoftFinger::new(0.0_f32).unwrap().without_friction_limit();
     let (mut inside, mut outside) = (0, 0);
-    for wrench in &self::left(&shape, &double, 0.01, 0.35, 85) {
+    for wrench in &[85, 87].map(|seed| self::left(&shape, &double, 0.01, 0.35, seed)).concat() {
         let Some(found) = whole.sole_soft_contact_in_double(&wide(wrench)) else { continue };
         if (found.point.x - 0.002).abs() < 1e-6 {
             continue;
@@ -138,7 +138,7 @@ fn poses_and_parts() {
             other => panic!("{other:?}"),
         }
     }
-    assert!(inside > 30 && outside > 40, "{inside} {outside}");
+    assert!(inside > 40 && outside > 40, "{inside} {outside}");
 }
 
 /// What friction can't hold is none, nor what the noise of the torque may turn round: as double precision says of them.

@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 
 use crate::SoftContact;
 use crate::model::flat;
-use crate::shapes::cylinder::{bears, steeply_on_round_side};
-use crate::shapes::sphere::steeply_on_ball;
+use crate::shapes::cylinder::steeply_on_round_side;
+use crate::shapes::sphere::steeply_on_round_end;
 use crate::soft_finger::closed_form::steady_levers;
 
 /// Faces, edges and corners that are tried before the long way is taken.
@@ -17,7 +17,7 @@ const PARTS: usize = 5;
 
 /// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face through whose
 /// plane the line of action comes last, and then of the part that the contact lies on whose place the part before does not
-/// hold. A convex body has no other. `levers` as [`bears`] has them, on edges and corners.
+/// hold. A convex body has no other. `levers` as [`steeply_on_round_side`] has them, on edges and corners.
 #[inline(always)]
 pub(super) fn steeply_on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
@@ -120,7 +120,7 @@ struct Parts<T: Real> {
     inner: Vector3<T>,
     rounding: T,
     curvature: T,
-    /// Of edges and corners, as [`bears`] has them.
+    /// Of edges and corners, as [`steeply_on_round_side`] has them.
     levers: T,
 }
 
@@ -165,11 +165,7 @@ impl<T: Real> Parts<T> {
 
     #[inline(always)]
     fn on_corner(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        let found = steeply_on_ball(&self.core.component_mul(side), self.rounding, self.curvature, push);
-        found.filter(|contact| {
-            let pressing = -push.force().dot(&contact.normal);
-            bears(pressing * pressing, contact.spin_torque, self.rounding * self.levers)
-        })
+        steeply_on_round_end(&self.core.component_mul(side), self.rounding, self.curvature, self.levers, push)
     }
 
     /// On an edge or a corner, without a branch, the part that the contact is on then, and whether it is one.
