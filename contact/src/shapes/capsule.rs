@@ -11,7 +11,7 @@ use super::sphere::{on_sphere, steeply_on_round_end};
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Kernel, Push, Versions, add, dot, pick, scale};
-use crate::soft_finger::closed_form::{soft_finger, sole, steady_levers, told};
+use crate::soft_finger::closed_form::{soft_finger, sole, told};
 use crate::soft_finger::double;
 use crate::soft_finger::double::{finely, spins_little};
 use crate::soft_finger::edge::surely_on_side;
@@ -108,14 +108,14 @@ fn capsule_in_double<T: Real>(
 #[inline(always)]
 fn steeply_on_capsule<T: Real>(shape: &Capsule<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
     let (centre, axis, half, radius) = (shape.centre(), shape.axis(), shape.half_length(), shape.radius());
-    let end = match steeply_on_round_side((&centre, &axis), radius, |x| x / radius, steady_levers(), push) {
+    let end = match steeply_on_round_side((&centre, &axis), radius, push) {
         Some((contact, height)) if height.abs() <= half => return Some(contact),
         Some((_, height)) => axis * height.signum(),
         // Along the axis.
         None => -axis * push.force().dot(&axis).signum(),
     };
     let centre = centre + end * half;
-    let contact = steeply_on_round_end(&centre, radius, T::one() / radius, steady_levers(), push)?;
+    let contact = steeply_on_round_end(&centre, radius, push)?;
     (contact.normal.dot(&end) >= T::zero()).then_some(contact)
 }
 

@@ -95,8 +95,7 @@ pub(super) fn on_round_side<T: Real>(
 }
 
 /// On the side of an unbounded circular cylinder, with the height along its axis from its centre, for a force that
-/// presses at no flat angle and a spin torque that a lever of so many radii [`bears`]. What is divided by the radius may be
-/// multiplied by what is known of it.
+/// presses at no flat angle and a spin torque that a steady lever [`bears`].
 ///
 /// The closed form of [`on_cylinder`] for equal semi-axes, without a frame: with the parts of force and torque along
 /// the axis `f_a`, `m_a` and across it, `q = m_a/R` and `s = √(|f_⊥|² − q²)`,
@@ -109,12 +108,10 @@ pub(super) fn on_round_side<T: Real>(
 pub(super) fn steeply_on_round_side<T: Real>(
     (centre, axis): (&Vector3<T>, &Vector3<T>),
     radius: T,
-    over_radius: impl Fn(T) -> T,
-    levers: T,
     push: &ForceLine<T>,
 ) -> Option<(SoftContact<T>, T)> {
     let (force, torque) = (push.force(), push.torque_about(centre));
-    let (along, turning) = (force.dot(axis), over_radius(torque.dot(axis)));
+    let (along, turning) = (force.dot(axis), torque.dot(axis) / radius);
     let across = force - axis * along;
     let aside = axis.cross(&across);
     let squared = across.norm_squared();
@@ -125,7 +122,7 @@ pub(super) fn steeply_on_round_side<T: Real>(
     }
     let (pressing, inverse) = (pressing_squared.root(), T::one() / squared);
     let spin_torque = -force.dot(&torque) / pressing;
-    if !bears(pressing_squared, spin_torque, radius * levers) {
+    if !bears(pressing_squared, spin_torque, radius * steady_levers()) {
         return None;
     }
     let normal = (aside * -turning - across * pressing) * inverse;
@@ -174,17 +171,12 @@ soft_finger!(
     Cylinder,
     |shape, wrench, _, visit| told(on_cylinder_finely(shape, wrench), visit),
     sole | shape,
-    push | steeply_on_round_side(
-        (&shape.centre(), &shape.axis()),
-        shape.radius(),
-        |x| x / shape.radius(),
-        steady_levers(),
-        push
-    )
-    .map(|(contact, height)| SoftContact {
-        active: shape.half_length().is_none_or(|half| height.abs() <= half),
-        ..contact
-    }),
+    push | steeply_on_round_side((&shape.centre(), &shape.axis()), shape.radius(), push).map(
+        |(contact, height)| SoftContact {
+            active: shape.half_length().is_none_or(|half| height.abs() <= half),
+            ..contact
+        }
+    ),
     double | shape,
     wrench | cylinder_in_double(shape, wrench),
     patch | shape,

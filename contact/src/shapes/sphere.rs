@@ -12,7 +12,7 @@ use super::cylinder::bears;
 use crate::batch::Lines;
 #[cfg(feature = "batch")]
 use crate::batch::kernel::{Answer, Chord, Kernel, Push, Versions, add, dot, pick, scale, split};
-use crate::soft_finger::closed_form::{part_of, soft_finger, told};
+use crate::soft_finger::closed_form::{part_of, soft_finger, steady_levers, told};
 use crate::soft_finger::unit_sphere::OnUnitSphere;
 use crate::{GeometrySensitivity, Search, SoftContact};
 
@@ -72,18 +72,16 @@ pub(super) fn steeply_on_ball<T: Real>(
     })
 }
 
-/// The same on an end of a body, under a spin torque that a lever of so many radii [`bears`].
+/// The same on an end of a body, under a spin torque that a steady lever [`bears`].
 #[inline(always)]
 pub(super) fn steeply_on_round_end<T: Real>(
     centre: &Vector3<T>,
     radius: T,
-    curvature: T,
-    levers: T,
     push: &ForceLine<T>,
 ) -> Option<SoftContact<T>> {
-    steeply_on_ball(centre, radius, curvature, push).filter(|contact| {
+    steeply_on_ball(centre, radius, T::one() / radius, push).filter(|contact| {
         let pressing = push.force().dot(&contact.normal);
-        bears(pressing * pressing, contact.spin_torque, radius * levers)
+        bears(pressing * pressing, contact.spin_torque, radius * steady_levers())
     })
 }
 

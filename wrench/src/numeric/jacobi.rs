@@ -121,3 +121,35 @@ where
     let cos = T::one() / (T::one() + tangent * tangent).root();
     Some(Turn::Rotated(cos, cos * tangent))
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{SMatrix, SVector};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// What is told of the turns is what was done: a matrix that follows them is orthogonal, takes the columns
+        /// as they were to those that are left, and these are orthogonal to one another.
+        #[test]
+        fn followed_turns_take_the_columns_to_orthogonal_ones(
+            entries in proptest::array::uniform12(-1.0_f64..1.0),
+            sizes in proptest::array::uniform3(-6_i32..6),
+        ) {
+            let sizes = SVector::<f64, 3>::from(sizes.map(|power| 10_f64.powi(power)));
+            let before = SMatrix::<f64, 4, 3>::from_iterator(entries) * SMatrix::from_diagonal(&sizes);
+            let (mut columns, mut turned) = (before, SMatrix::<f64, 3, 3>::identity());
+            orthogonalise(&mut columns, |turn, p, q| turn.apply(&mut turned, p, q));
+
+            let not_orthogonal = (turned.transpose() * turned - SMatrix::identity()).amax();
+            prop_assert!(not_orthogonal < 1e-14, "V'V differs from 1 by {not_orthogonal:e}");
+            let differ = (before * turned - columns).amax();
+            prop_assert!(differ < 1e-14 * before.amax(), "AV differs from the columns by {differ:e}");
+            for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+                let cosine = columns.column(p).normalize().dot(&columns.column(q).normalize());
+                prop_assert!(cosine.abs() < 1e-14, "columns {p} and {q} are at a cosine of {cosine:e}");
+            }
+        }
+    }
+}

@@ -8,8 +8,7 @@ use nalgebra::Vector3;
 
 use crate::SoftContact;
 use crate::model::flat;
-use crate::shapes::cylinder::steeply_on_round_side;
-use crate::shapes::sphere::steeply_on_round_end;
+use crate::shapes::cylinder::bears;
 use crate::soft_finger::closed_form::steady_levers;
 
 /// Faces, edges and corners that are tried before the long way is taken.
@@ -17,7 +16,8 @@ const PARTS: usize = 5;
 
 /// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face through whose
 /// plane the line of action comes last, and then of the part that the contact lies on whose place the part before does not
-/// hold. A convex body has no other. `levers` as [`steeply_on_round_side`] has them, on edges and corners.
+/// hold. A convex body has no other. On edges and corners, `levers` say how
+/// many radii the lever is at which the force [`bears`] the spin torque.
 #[inline(always)]
 pub(super) fn steeply_on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
@@ -27,18 +27,15 @@ pub(super) fn steeply_on_rounded_box<T: Real>(
     let parts = Parts::new(shape, levers);
     let mut side = parts.entered(push);
     for _ in 0..PARTS {
-        let count = side.norm_squared();
+        let is_flat = side.norm_squared() <= T::one();
+        let (found, is_told) = if is_flat { parts.on_face(&side, push) } else { parts.on_round(&side, push) };
         // A face that is pressed at a flat angle may lead to an edge that is not.
-        let (found, is_steady) = if count <= T::one() {
-            parts.on_face(&side, push)
-        } else if count <= T::literal(2.0) {
-            (parts.on_edge(&side, push)?, true)
-        } else {
-            (parts.on_corner(&side, push)?, true)
-        };
+        if !(is_told | is_flat) {
+            return None;
+        }
         let next = parts.side_of(&side, &found);
         if next == side {
-            return (is_steady & parts.is_sure(&side, &found)).then_some(found);
+            return (is_told & parts.is_sure(&side, &found)).then_some(found);
         }
         side = next;
     }
@@ -58,8 +55,8 @@ pub(super) fn steeply_on_an_edge<T: Real>(
     (0..3).flat_map(around).find_map(|(k, a, b)| {
         let mut side = Vector3::zeros();
         (side[(k + 1) % 3], side[(k + 2) % 3]) = (a, b);
-        let found = parts.on_edge(&side, push)?;
-        ((parts.side_of(&side, &found) == side) & parts.is_sure(&side, &found)).then_some(found)
+        let (found, is_one) = parts.on_round(&side, push);
+        (is_one & (parts.side_of(&side, &found) == side) & parts.is_sure(&side, &found)).then_some(found)
     })
 }
 
@@ -75,19 +72,15 @@ pub(super) fn steeply_in_columns<T: Real>(
     let face = parts.entered(push);
     let (on_face, is_on_face) = parts.on_face(&face, push);
     let first = parts.side_of(&face, &on_face);
-    let (on_first, second, is_on_first) = parts.on_round(&first, push);
+    let (on_first, is_on_first) = parts.on_round(&first, push);
+    let second = parts.side_of(&first, &on_first);
     let (flat, settled) = (first == face, second == first);
     let found = pick(flat, &on_face, &on_first);
-    let side = face.zip_map(&second, |a, b| select_unpredictable(flat, a, b));
+    let side_at = |k: usize| select_unpredictable(flat, face[k], second[k]);
+    let side = Vector3::new(side_at(0), side_at(1), side_at(2));
     let is_round = is_on_first & settled;
     let is_found = (face.norm_squared() <= one) & ((flat & is_on_face) | (!flat & is_round));
     (is_found & parts.is_sure(&side, &found)).then_some(found)
-}
-
-/// A contact, and whether it is one.
-#[inline(always)]
-fn told_or_not<T: Real>(found: Option<SoftContact<T>>) -> (SoftContact<T>, bool) {
-    (found.unwrap_or_else(nowhere), found.is_some())
 }
 
 /// One of two, without a branch. Component by component: of `zip_map` the compiler makes no vectors here.
@@ -106,12 +99,6 @@ fn pick<T: Real>(first: bool, a: &SoftContact<T>, b: &SoftContact<T>) -> SoftCon
     }
 }
 
-/// In place of what is not found.
-#[inline(always)]
-fn nowhere<T: Real>() -> SoftContact<T> {
-    SoftContact { point: Vector3::zeros(), normal: Vector3::zeros(), spin_torque: T::zero(), active: false }
-}
-
 /// The faces, edges and corners of a rounded box, each on its side of the core: −1, 0 or 1 along each axis.
 struct Parts<T: Real> {
     half: Vector3<T>,
@@ -120,7 +107,7 @@ struct Parts<T: Real> {
     inner: Vector3<T>,
     rounding: T,
     curvature: T,
-    /// Of edges and corners, as [`steeply_on_round_side`] has them.
+    /// Of edges and corners: how many radii the lever is at which the force [`bears`] the spin torque.
     levers: T,
 }
 
@@ -155,29 +142,40 @@ impl<T: Real> Parts<T> {
         on_face(&self.half.component_mul(side), side, push)
     }
 
+    /// On the edge or corner on this side, for a force that presses at no flat angle and a spin torque that its levers
+    /// [`bear`](bears); and whether it is one, which under others, and of a NaN, it is not.
+    ///
+    /// The closed form of `docs/theory/contact.md#central-quadrics` with `D = diag(s²)` around the part's centre, in units of
+    /// its radius: a cylinder where one of the three sides is zero, of which `det D = 0`, and a ball where none is.
     #[inline(always)]
-    fn on_edge(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        let along = side.map(|side| select_unpredictable(side == T::zero(), T::one(), T::zero()));
+    fn on_round(&self, side: &Vector3<T>, push: &ForceLine<T>) -> (SoftContact<T>, bool) {
+        let half = T::literal(0.5);
         let centre = self.core.component_mul(side);
-        steeply_on_round_side((&centre, &along), self.rounding, |x| x * self.curvature, self.levers, push)
-            .map(|(found, _)| found)
-    }
+        let (f, m) = (push.force(), push.torque_about(&centre) * self.curvature);
+        let power = f.dot(&push.torque()) * self.curvature;
+        let d = side.abs();
+        let adjugate = Vector3::new(d.y * d.z, d.z * d.x, d.x * d.y);
+        let determinant = adjugate.x * d.x;
+        let (across, turning) = (f.component_mul(&d), m.component_mul(&adjugate));
+        let (force, torque) = (across.norm_squared(), turning.norm_squared());
+        let (sigma, squares) = (torque - force, torque + force);
+        let twice = (power + power) * determinant;
+        let root = (sigma * sigma + twice * twice).root();
+        let larger = ((root + sigma.abs()) * half).root();
+        let smaller = power.abs() / larger;
+        let misses = sigma >= T::zero();
+        let spin = select_unpredictable(misses, larger, smaller).copysign(-power);
+        // No spin torque bends a line that misses an edge back to it.
+        let along = select_unpredictable(misses, smaller * determinant, larger);
+        let place = (turning * spin + across.cross(&m) - f * along) * (T::one() / ((root + squares) * half));
 
-    #[inline(always)]
-    fn on_corner(&self, side: &Vector3<T>, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        steeply_on_round_end(&self.core.component_mul(side), self.rounding, self.curvature, self.levers, push)
-    }
-
-    /// On an edge or a corner, without a branch, the part that the contact is on then, and whether it is one.
-    #[inline(always)]
-    fn on_round(&self, side: &Vector3<T>, push: &ForceLine<T>) -> (SoftContact<T>, Vector3<T>, bool) {
-        let (edge, on_edge) = told_or_not(self.on_edge(side, push));
-        let (corner, on_corner) = told_or_not(self.on_corner(side, push));
-        let (one, count) = (T::one(), side.norm_squared());
-        let is_edge = (count > one) & (count <= one + one);
-        let is_corner = count > one + one;
-        let found = pick(is_edge, &edge, &corner);
-        (found, self.side_of(side, &found), (is_edge & on_edge) | (is_corner & on_corner))
+        let (pressing_squared, fourth) = (along * along, squares * squares);
+        let (point, spin_torque) = (centre + place * self.rounding, spin * self.rounding);
+        let is_in_range = (fourth >= ForceLine::least_squared()) & (fourth <= T::GREATEST);
+        let is_steep = pressing_squared >= flat::<T>() * flat::<T>() * push.squared();
+        let is_borne = bears(pressing_squared, spin_torque, self.rounding * self.levers);
+        let found = SoftContact { point, normal: place.component_mul(&d), spin_torque, active: true };
+        (found, is_in_range & is_steep & is_borne)
     }
 
     /// The side of the part that a contact on another part's whole plane, cylinder or ball is beside.
