@@ -93,6 +93,11 @@ impl Program {
         Ok(false)
     }
 
+    /// How long these tests take, one after the other.
+    fn expected(&self, tests: &[String]) -> Duration {
+        tests.iter().map(|test| self.times.get(test).copied().unwrap_or(self.took)).sum()
+    }
+
     /// Whether one of these tests fails, or does not end.
     fn fails(&self, fault: u32, tests: &[String]) -> Result<bool, Failure> {
         let mut child = Command::new(&self.executable)
@@ -115,7 +120,7 @@ impl Program {
                 }
             }
         });
-        let limit = Instant::now() + Duration::from_secs(30) + 8 * self.took;
+        let limit = Instant::now() + Duration::from_secs(30) + 8 * self.expected(tests);
         let failed = loop {
             match lines.recv_timeout(limit.saturating_duration_since(Instant::now())) {
                 Ok(line) if line.ends_with("FAILED") => break true,
