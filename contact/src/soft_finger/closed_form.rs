@@ -48,22 +48,13 @@ macro_rules! soft_finger {
                 $sole
             })?
 
-            $(#[inline(always)]
-            fn sole_soft_contact_in_columns(
-                &self,
-                $many: &fingertip_surfaces::ForceLine<T>,
-            ) -> Option<$crate::SoftContact<T>> {
-                let $each = self;
-                $columns
-            })?
-
             #[inline(always)]
             fn sole_soft_contacts_in_columns(
                 &self,
             ) -> impl Fn(&fingertip_surfaces::ForceLine<T>) -> Option<$crate::SoftContact<T>> {
                 let shape = *self;
                 #[inline(always)]
-                move |push| shape.sole_soft_contact_in_columns(push)
+                move |push| $crate::soft_finger::closed_form::in_columns!(&shape, push $(, |$each, $many| $columns)?)
             }
 
             $(fn sole_soft_contact_in_double(
@@ -136,6 +127,19 @@ macro_rules! soft_finger {
 }
 
 pub(crate) use soft_finger;
+
+/// The sole contact without a branch, of a shape that has its own way to it; of others, as they find it at all times.
+macro_rules! in_columns {
+    ($shape:expr, $push:ident) => {
+        $shape.sole_soft_contact($push)
+    };
+    ($shape:expr, $push:ident, |$each:ident, $many:ident| $columns:expr) => {{
+        let ($each, $many) = ($shape, $push);
+        $columns
+    }};
+}
+
+pub(crate) use in_columns;
 
 /// Shapes that are a part of another shape.
 macro_rules! part_of {

@@ -139,21 +139,14 @@ pub trait SoftFingerSurface<T: Real>: ActiveSurface<T> {
         None
     }
 
-    /// The same without a branch, for loops over columns: to the bit what [`sole_soft_contact`](Self::sole_soft_contact)
-    /// answers, or `None`. The default is that one.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn sole_soft_contact_in_columns(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        self.sole_soft_contact(push)
-    }
-
-    /// The same as a function that holds copies of the numbers of the surface, which the compiler then reads once for a
-    /// column. The default reads them for every wrench.
+    /// The same without a branch, for loops over columns, as a function that holds copies of the numbers of the surface, which
+    /// the compiler then reads once for a column: to the bit what [`sole_soft_contact`](Self::sole_soft_contact) answers, or
+    /// `None`. The default is that one, which reads them for every wrench.
     #[doc(hidden)]
     #[inline(always)]
     fn sole_soft_contacts_in_columns(&self) -> impl Fn(&ForceLine<T>) -> Option<SoftContact<T>> {
         #[inline(always)]
-        |push| self.sole_soft_contact_in_columns(push)
+        |push| self.sole_soft_contact(push)
     }
 
     /// The same by the closed form in double precision, for a narrower type, of which it is right to the last digit: what
@@ -238,11 +231,6 @@ impl<T: Real, S: SoftFingerSurface<T>> SoftFingerSurface<T> for &S {
     #[inline]
     fn sole_soft_contact(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
         (**self).sole_soft_contact(push)
-    }
-
-    #[inline(always)]
-    fn sole_soft_contact_in_columns(&self, push: &ForceLine<T>) -> Option<SoftContact<T>> {
-        (**self).sole_soft_contact_in_columns(push)
     }
 
     #[inline(always)]

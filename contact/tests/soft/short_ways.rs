@@ -62,7 +62,7 @@ fn steep_presses_on_rounded_boxes_take_the_short_way() {
         let point = inside + normal * rounding;
         let wrench = press(&mut random, &point, &normal, 0.0015);
         let push = ForceLine::new(&wrench, ForceLine::least_squared()).unwrap();
-        let (one, column) = (shape.sole_soft_contact(&push), shape.sole_soft_contact_in_columns(&push));
+        let (one, column) = (shape.sole_soft_contact(&push), shape.sole_soft_contacts_in_columns()(&push));
         if let Some(found) = &one {
             is_at(found, &point, 0.026);
             answered += 1;
