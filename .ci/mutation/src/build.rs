@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use crate::Failure;
 use crate::tree::Places;
+use crate::workspace::Package;
 
 /// What a build comes to.
 pub enum Built {
@@ -49,11 +50,12 @@ struct Span {
 }
 
 /// `cargo test --no-run` in the copy.
-pub fn tests(copy: &Path, packages: &[String], places: &Places) -> Result<Built, Failure> {
+pub fn tests(copy: &Path, packages: &[&Package], places: &Places) -> Result<Built, Failure> {
     let mut command = Command::new("cargo");
     command.args(["test", "--no-run", "--message-format=json", "--quiet"]);
     for package in packages {
-        command.args(["-p", package]);
+        command.args(["-p", &package.name]);
+        command.args(package.features().flat_map(|feature| ["--features".to_owned(), feature]));
     }
     let output = command.current_dir(copy).stderr(Stdio::piped()).output()?;
     let mut programs = Vec::new();

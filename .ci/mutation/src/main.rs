@@ -155,8 +155,10 @@ fn build_tests(
     asked.extend(options.judges.iter().cloned());
     let chosen = packages.iter().filter(|package| options.packages.contains(&package.name));
     asked.extend(chosen.flat_map(workspace::Package::judges).cloned());
-    asked.sort();
-    asked.dedup();
+    if let Some(unknown) = asked.iter().find(|name| !packages.iter().any(|package| package.name == **name)) {
+        return Err(format!("there is no package {unknown}").into());
+    }
+    let asked: Vec<_> = packages.iter().filter(|package| asked.contains(&package.name)).collect();
     for _ in 0..12 {
         let places = tree::write(root, &copy, files, faults)?;
         match build::tests(&copy, &asked, &places)? {

@@ -1,5 +1,6 @@
 //! The packages of the workspace and the sources in which faults are put.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -24,10 +25,15 @@ const HOT: &[&str] = &[
 const NOT: &[&str] =
     &["/tests/", "/tests.rs", "/testing/", "/testing.rs", "_tests.rs", "/fuzz/", "/examples/", "/test_"];
 
+/// Features that no package turns on in another when `cargo test` is called for all.
+const OFF: &[&str] = &["foxglove", "libm", "ros2", "web"];
+
 #[derive(Debug, Deserialize)]
 pub struct Package {
     pub name: String,
     manifest_path: PathBuf,
+    #[serde(default)]
+    features: BTreeMap<String, Vec<String>>,
     /// `package.metadata` of the manifest; most packages have none.
     metadata: Option<Notes>,
 }
@@ -63,6 +69,13 @@ struct LeftOut {
 impl Package {
     pub fn folder(&self) -> &Path {
         self.manifest_path.parent().unwrap_or(Path::new("."))
+    }
+
+    /// The features that the package has when `cargo test` is called for all, each with the package's name before it: some tests
+    /// are only there with them.
+    pub fn features(&self) -> impl Iterator<Item = String> {
+        let on = self.features.keys().filter(|feature| !OFF.contains(&feature.as_str()));
+        on.map(|feature| format!("{}/{feature}", self.name))
     }
 
     /// The other packages whose tests judge this one: `[package.metadata.mutants] judges`.
