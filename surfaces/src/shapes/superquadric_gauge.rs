@@ -230,6 +230,7 @@ mod tests {
                 let near = z.abs() < 1e-40 || z.is_nan();
                 let expected = if near { 0.0 } else { 2.0 * z.abs() };
                 assert_eq!(gauge.value, expected, "{z}");
+                assert_eq!(gauge.inverse, if near { f32::MAX } else { 1.0 / expected }, "{z}");
                 assert_eq!(gauge.gradient.z, if near { 0.0 } else { 2.0_f32.copysign(z) }, "{z}");
             }
         }

@@ -226,3 +226,18 @@ fn grids_that_are_none() {
         assert!(Heightfield::new(CORNER, SPACING, 2, vec![0.0, 0.0, 0.0, bad]).is_err());
     }
 }
+
+/// The border belongs to the grid, for lines that run along an axis, too.
+#[test]
+fn lines_along_the_border_cross_it() {
+    let heights = heights(0.1);
+    let surface = field(&heights);
+    let (right, back) = (CORNER[0] + SPACING[0] * 5.0, CORNER[1] + SPACING[1] * 4.0);
+    for [x, y] in [[CORNER[0], 0.7], [right, 0.7], [0.1, CORNER[1]], [0.1, back]] {
+        let line = Line { point: Vector3::new(x, y, 2.0), direction: -Vector3::z() };
+        let mut found = Vec::new();
+        surface.crossings(&line, |crossing| found.push(crossing.point));
+        let expected = height(&heights, x, y).unwrap();
+        assert!(found.iter().any(|point| (point.z - expected).abs() < 1e-12), "{x} {y}: {found:?}");
+    }
+}

@@ -195,3 +195,18 @@ impl<T: Real> ImplicitSurface<T> for Pillow<T> {
 laws!(implicit_pillow, around(0.0, 0.0, 0.0, 1.3).with_roundings(l(256.0)).lines_few(), |k| Implicit::new(
     Pillow(k)
 ));
+
+/// Beside a surface that tells its crossings alone, the normal is that where it is nearest, not that of a place farther on.
+#[test]
+fn normals_beside_a_surface_are_those_of_the_nearest_crossing() {
+    let ball = OnlyCrossings(Sphere::centred(0.01_f64).unwrap());
+    for k in 0..100 {
+        let (turn, height) = (f64::from(k) * 2.4, f64::from(k) * 0.02 - 0.99);
+        let across = (1.0 - height * height).sqrt();
+        let outward = Vector3::new(across * turn.cos(), across * turn.sin(), height);
+        for distance in [0.007, 0.0099, 0.0101, 0.012] {
+            let found = ball.normal(&(outward * distance));
+            assert!(found.dot(&outward) > 0.99, "{distance}: {found:?} {outward:?}");
+        }
+    }
+}

@@ -271,3 +271,23 @@ fn files_are_told_apart_by_their_names() {
     assert_eq!(Mesh::<f64>::from_file(&path, 0.001), Err(MeshError::NotText));
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// Of a fine ball, a wrench may touch few triangles, all of them near where its force enters.
+#[test]
+fn a_wrench_is_asked_of_few_triangles() {
+    let (vertices, triangles) = ball_of_triangles(60, 61, None);
+    let ball = mesh::<f64>(&vertices, &triangles);
+    let mut random = Pcg64Mcg::seed_from_u64(9);
+    for _ in 0..200 {
+        let place = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0)).normalize();
+        let force = -place + Vector3::from_fn(|_, _| random.random_range(-0.3..0.3));
+        let (mut asked, mut is_there) = (0, false);
+        ball.may_be_touched(&force, &place.cross(&force), 0.0, |range, _| {
+            asked += range.len();
+            for triangle in range {
+                is_there |= ball.normal_of(triangle).dot(&place) > 0.998;
+            }
+        });
+        assert!(is_there && asked < triangles.len() / 20, "{asked} of {}", triangles.len());
+    }
+}
