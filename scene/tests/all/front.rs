@@ -303,6 +303,16 @@ fn filters_leave_what_they_shall() {
     }
 }
 
+/// What overflows in a filter is given back as it came and forgotten: the next wrench is the first again.
+#[test]
+fn a_filter_forgets_what_it_cannot_hold() {
+    let mut pipeline = filtered("kind = \"low_pass\"\ncutoff_Hz = 20.0\n").unwrap().pipeline();
+    let load = |force: f64| Wrench::on_fingertip(Vector3::z() * force, Vector3::zeros());
+    for force in [-f64::MAX, f64::MAX, -2.0] {
+        assert_eq!(pipeline.sense(load(force), 1e-3).touch.wrench.force().z, force);
+    }
+}
+
 /// Of a load that grows steadily the filtered one lags by the delay that is stated.
 #[test]
 fn the_delay_of_a_filter_is_as_stated() {

@@ -147,6 +147,30 @@ fn what_an_inertial_unit_needs_is_said() {
     assert!(error.contains("the section [inertial_unit] has no type"), "{error}");
 }
 
+/// What the sensor read before anything was on it goes off, too, unless a zero was taken since.
+#[test]
+fn the_bias_of_the_payloads_file_goes_off_once() {
+    let folder = Folder::new("inertial-bias");
+    let mut file = PayloadFile::new(0.1, Vector3::zeros(), Vector3::new(0.0, 0.0, -9.8)).unwrap();
+    file.force_bias = [0.5, 0.0, 0.0];
+    fs::write(folder.path().join("body.toml"), file.to_toml().unwrap()).unwrap();
+    let text = format!("{HEAD}[payload]\nfile = \"body.toml\"\n[inertial_unit]\n{BALL}");
+    let mut pipeline = Scene::parse(&text, "scene", folder.path()).unwrap().pipeline();
+    let resting =
+        InertialReading { acceleration: Vector3::new(0.0, 0.0, 9.8), angular_velocity: Vector3::zeros() };
+    let measured = Wrench::on_fingertip(Vector3::new(0.5, 0.0, -2.98), Vector3::zeros());
+    let felt = pipeline.sense_inertial(measured, &resting, 1e-3).unwrap();
+    assert!((felt.touch.wrench.force() - Vector3::new(0.0, 0.0, -2.0)).norm() < 1e-12, "{felt:?}");
+    let carried = pipeline.carried_mut().unwrap();
+    assert!(carried.rest_moving(&resting));
+    carried.end_rest();
+    pipeline.start_anew();
+    // The zero holds bias and weight, and is off before.
+    let measured = Wrench::on_fingertip(Vector3::new(0.0, 0.0, -2.0), Vector3::zeros());
+    let felt = pipeline.sense_inertial(measured, &resting, 1e-3).unwrap();
+    assert!((felt.touch.wrench.force() - Vector3::new(0.0, 0.0, -2.0)).norm() < 1e-12, "{felt:?}");
+}
+
 /// Up to half a second lies between two samples of one motion; behind a longer pause the next is the first.
 #[test]
 fn a_pause_is_no_motion() {

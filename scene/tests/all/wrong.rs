@@ -246,6 +246,12 @@ fn what_is_hardly_meant_is_doubted() {
             ),
             "`radius_m` of [surface] is 8 m",
         ),
+        (
+            format!(
+                "{HEAD}[surface]\nshape = \"formula\"\noutside = \"x^2 + y^2 + z^2 - 0.0001\"\nreach_m = 20.0\n"
+            ),
+            "`reach_m` of [surface] is 20 m",
+        ),
     ] {
         let found = doubts(&text);
         assert!(found.len() == 1 && found[0].contains(expected), "{found:?} lacks {expected}");
