@@ -170,3 +170,24 @@ pub(super) fn number_in(text: &str, size: f64) -> Result<f64, &'static str> {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signals_stand_once_each_in_one_unit() {
+        let signal = |gauge, unit| Column::Signal(gauge, unit, 1.0);
+        let said = |columns: &[Column]| signal_layout(columns).map(|(_, gauges, unit)| (gauges, unit));
+        let refused = |columns: &[Column]| said(columns).unwrap_err();
+        let volt = |gauge| signal(gauge, SignalUnit::Volt);
+        assert_eq!(said(&[volt(1), Column::Ignored, volt(0)]), Ok((2, SignalUnit::Volt)));
+        let words = |column: &str, why: &str| (column.to_owned(), why.to_owned());
+        assert_eq!(refused(&[volt(0), volt(1), volt(1)]), words("v2", "stands twice"));
+        assert_eq!(refused(&[volt(0), volt(2)]), words("v2", "is missing"));
+        let other = signal(1, SignalUnit::MillivoltPerVolt);
+        assert_eq!(refused(&[volt(0), other]), words("v2", "is in another unit than v1"));
+        let twice = [Column::Load(Axis::Fx, 1.0), volt(0), Column::Load(Axis::Fx, 1.0)];
+        assert_eq!(refused(&twice), words("fx", "stands twice"));
+    }
+}

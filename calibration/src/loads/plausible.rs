@@ -145,6 +145,12 @@ mod tests {
         let mut pure = table(1e-3);
         pure.loads.row_mut(3).copy_from_slice(&[0.0, 0.0, 0.0, 0.1, 0.0, 0.0]);
         assert_eq!(pure.odd_lever_arms(), None);
+        // One of another unit among many says nothing of the others, wherever it stands.
+        let mut one = table(1.0);
+        for axis in 3..6 {
+            one.loads[(10, axis)] *= 1e6;
+        }
+        assert_eq!(one.odd_lever_arms(), None);
         // Forces through the origin have no torque at all.
         assert_eq!(table(0.0).odd_lever_arms(), None);
     }
@@ -158,8 +164,16 @@ mod tests {
             table.odd_sizes()
         };
         assert_eq!((with(2, -1000.0), with(4, 100.0)), (None, None));
-        assert!(with(2, -1001.0).unwrap().starts_with("the greatest fz is 1001 N, "));
-        assert!(with(4, 101.0).unwrap().starts_with("the greatest ty is 101 N·m, "));
+        assert!(
+            with(2, -1001.0)
+                .unwrap()
+                .starts_with("the greatest fz is 1001 N, and no fingertip feels a force above")
+        );
+        assert!(
+            with(4, 101.0)
+                .unwrap()
+                .starts_with("the greatest ty is 101 N·m, and no fingertip feels a torque above")
+        );
         // Numbers that are long to read are written with a power of ten.
         assert!(with(0, 999_999.0).unwrap().starts_with("the greatest fx is 999999 N, "));
         assert!(with(0, 1e6).unwrap().starts_with("the greatest fx is 1e6 N, "));
