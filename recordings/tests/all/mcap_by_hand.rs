@@ -65,6 +65,15 @@ fn a_message_is_read_in_a_chunk_and_outside_of_one() {
     assert_eq!(entries(&empty).unwrap().len(), 2);
 }
 
+#[test]
+fn of_a_sound_file_nothing_is_lost() {
+    let records = [definitions(), message(1, 0, &wrench()), message(1, 1, &wrench())].concat();
+    let whole = file(&[chunk(&records), data_end()]);
+    let (recovered, _) = recover(whole.as_slice(), Cursor::new(Vec::new()), Compression::None).unwrap();
+    assert_eq!((recovered.messages, recovered.damaged_records, recovered.damaged_chunks), (2, 0, 0));
+    assert!(!recovered.cut);
+}
+
 /// Found by fuzzing: a chunk that ends in a record which says to be a chunk was opened anew for ever.
 #[test]
 fn no_chunk_and_no_end_stand_in_a_chunk() {

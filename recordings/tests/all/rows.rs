@@ -127,6 +127,20 @@ fn a_sensor_without_an_inertial_unit_has_the_one_without_a_name() {
     assert_eq!((left.as_slice(), right.as_slice()), (&[0.0, 0.0, 1.0][..], &[0.0, 1.0, 0.0][..]));
 }
 
+/// A row that stands again, or lacks a number, is no reading of an inertial unit.
+#[test]
+fn an_inertial_unit_reads_only_what_is_usable() {
+    let file = "time_s,v1_V,ax_g,ay_g,az_g,wx_dps,wy_dps,wz_dps\n\
+                0.0,0,0,0,1,0,0,0\n0.0,0,0,0,1,0,0,0\n0.1,0,0,0,,0,0,0\n0.2,0,0,0,1,0,0,0\n";
+    let mut reader = RecordingReader::new("test.csv", file.as_bytes()).unwrap();
+    let unit = reader.watch_inertial_unit("").unwrap();
+    let mut read = Vec::new();
+    while let Some(row) = reader.next_row().unwrap() {
+        read.push(row.inertial(&unit).is_some());
+    }
+    assert_eq!(read, [true, false, false, true]);
+}
+
 /// Gives a byte at a time, and says in between that it was interrupted.
 struct Interrupted<'a>(&'a [u8], bool);
 
