@@ -121,6 +121,25 @@ mod tests {
         }
     }
 
+    /// Mahalanobis's, by the inverse of the covariance: along what gauges have in common a signal is less far than across it.
+    #[test]
+    fn distances_go_by_the_covariance() {
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(29);
+        let mixed = DMatrix::from_row_slice(3, 3, &[1.0, 0.9, 0.5, 0.0, 0.3, 0.2, 0.0, 0.0, 0.4]);
+        let signals = gaussian_matrix(&mut random, 300, 3) * mixed;
+        let region = Region::of(&signals).unwrap();
+        let centre = signals.row_mean();
+        let mut away = signals.clone();
+        away.row_iter_mut().for_each(|mut row| row -= &centre);
+        let inverse = (away.tr_mul(&away) / 300.0).try_inverse().unwrap();
+        let expected = |i: usize| (away.row(i) * &inverse * away.row(i).transpose())[(0, 0)].sqrt();
+        let farthest = (0..300).map(expected).fold(0.0, f64::max);
+        for i in 0..300 {
+            let found = region.distance(&signals.row(i).iter().copied().collect::<Vec<_>>());
+            assert!((found - expected(i) / farthest).abs() < 1e-9, "{found} {}", expected(i) / farthest);
+        }
+    }
+
     /// Of gauges that read in units of their own, each counts by its own size.
     #[test]
     fn the_unit_of_a_single_gauge_is_nothing() {
