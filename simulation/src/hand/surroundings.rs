@@ -96,7 +96,7 @@ mod tests {
     use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
     use super::super::body::{Inertial, RigidBody};
-    use super::OtherHand;
+    use super::{OtherHand, Table};
 
     /// A body that turns about any axis alike, moved and turned by so much and now in motion.
     fn body(
@@ -112,6 +112,22 @@ mod tests {
         assert!((body.attitude() * UnitQuaternion::from_scaled_axis(turned).inverse()).angle() < 1e-9);
         body.set_motion(&velocity, &turning);
         body
+    }
+
+    /// The foot that is pressed into the table is pushed up again, which turns the object back.
+    #[test]
+    fn a_table_rights_what_stands_crooked() {
+        let none = Vector3::zeros();
+        let feet = [Vector3::new(0.03, 0.0, -0.02), Vector3::new(-0.03, 0.0, -0.02)];
+        let start = Vector3::new(0.1, 0.2, 0.3);
+        for lean in [1e-3, -1e-3] {
+            let mut table = Table::below(&feet).unwrap();
+            let crooked = body(-start, Vector3::y() * lean, none, none);
+            let (force, torque) = table.step(&crooked, 1e-3);
+            assert!(force.z > 0.1 && table.bears == force.z, "{force}");
+            let expected = -force.z * 0.03_f64.copysign(lean);
+            assert!((torque.y / expected - 1.0).abs() < 1e-2, "{torque} {expected}");
+        }
     }
 
     #[test]
