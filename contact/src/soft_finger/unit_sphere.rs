@@ -36,6 +36,48 @@ pub(crate) struct OnUnitSphere<T: Real> {
     misses: bool,
 }
 
+/// The two unknowns of a contact on the unit sphere, and on the quadrics `rᵀDr = 1` with ones and noughts in `D`.
+pub(crate) struct Parted<T: Real> {
+    /// `k`.
+    pub(crate) spin: T,
+    /// `|h|`.
+    pub(crate) along: T,
+    /// Of what the place is stretched by, `k² det D + fᵀDf`.
+    pub(crate) inverse: T,
+    /// `mᵀ adj(D) m + fᵀDf`.
+    pub(crate) squares: T,
+    /// The line of action passes the quadric by or touches it.
+    pub(crate) misses: bool,
+}
+
+impl<T: Real> Parted<T> {
+    /// With `fᵀDf` and `mᵀ adj(D) m`, `σ` apart from them, `f·m` and `det D`
+    /// (`docs/theory/contact.md#central-quadrics`).
+    #[inline(always)]
+    pub(crate) fn new([force, torque]: [T; 2], sigma: T, power: T, determinant: T) -> Self {
+        let half = T::literal(0.5);
+        let (squares, twice) = (force + torque, (power + power) * determinant);
+        let root = (sigma * sigma + twice * twice).root();
+        // k² det D + fᵀDf = (ρ + mᵀ adj(D) m + fᵀDf)/2, which does not wait for k.
+        let inverse = T::one() / ((root + squares) * half);
+        let larger = ((root + sigma.abs()) * half).root();
+        let smaller = power.abs() / larger;
+        let misses = sigma >= T::zero();
+        // Without a branch, which no one could predict. No spin torque bends a line back to a cylinder, det D = 0.
+        let (spin, along) = if misses { (larger, smaller * determinant) } else { (smaller, larger) };
+        Self { spin: spin.copysign(-power), along, inverse, squares, misses }
+    }
+}
+
+/// Whether fourth powers are in range, and the force presses at no so flat an angle that rounding errors grow more than
+/// threefold. False for a NaN.
+#[inline(always)]
+pub(crate) fn is_steep<T: Real>(squares: T, along: T, force_squared: T) -> bool {
+    let fourth = squares * squares;
+    let in_range = (fourth >= ForceLine::least_squared()) & (fourth <= T::GREATEST);
+    in_range & (along * along >= flat::<T>().whole_power(2) * force_squared)
+}
+
 impl<T: Real> OnUnitSphere<T> {
     /// For a force and a torque of which the larger is tame, so that fourth powers stay in range; it
     /// must not be zero, and the force must not be. `force` is `|f|²`, `power` is `f·m`, which may
@@ -60,17 +102,8 @@ impl<T: Real> OnUnitSphere<T> {
     /// With `|f|²` and `|m|²`, and `σ` apart from them.
     #[inline(always)]
     fn with_difference(f: &Vector3<T>, m: &Vector3<T>, [force, torque]: [T; 2], sigma: T, power: T) -> Self {
-        let half = T::literal(0.5);
-        let (squares, twice) = (force + torque, power + power);
-        let root = (sigma * sigma + twice * twice).root();
-        // k² + |f|² = (ρ + |m|² + |f|²)/2, which does not wait for k.
-        let inverse = T::one() / ((root + squares) * half);
-        let larger = ((root + sigma.abs()) * half).root();
-        let smaller = power.abs() / larger;
-        let misses = sigma >= T::zero();
-        // Without a branch, which no one could predict.
-        let (spin, along) = if misses { (larger, smaller) } else { (smaller, larger) };
-        let spin = spin.copysign(-power);
+        let Parted { spin, along, inverse, squares, misses } =
+            Parted::new([force, torque], sigma, power, T::one());
         let stretched = m * spin + f.cross(m) - f * along;
         Self { spin, along, stretched, inverse, squares, misses }
     }
@@ -81,9 +114,7 @@ impl<T: Real> OnUnitSphere<T> {
     #[inline(always)]
     pub(crate) fn steep(f: &Vector3<T>, m: &Vector3<T>, force: T, power: T) -> Option<Self> {
         let solved = Self::new(f, m, force, power);
-        let fourth = solved.squares * solved.squares;
-        let in_range = (fourth >= ForceLine::least_squared()) & (fourth <= T::GREATEST);
-        (in_range & (solved.along * solved.along >= flat::<T>().whole_power(2) * force)).then_some(solved)
+        is_steep(solved.squares, solved.along, force).then_some(solved)
     }
 
     /// `c`: point and normal at once.

@@ -10,14 +10,15 @@ use crate::SoftContact;
 use crate::model::flat;
 use crate::shapes::cylinder::bears;
 use crate::soft_finger::closed_form::steady_levers;
+use crate::soft_finger::unit_sphere::{Parted, is_steep};
 
 /// Faces, edges and corners that are tried before the long way is taken.
 const PARTS: usize = 5;
 
 /// The contact of a force that presses steeply, by the closed form of a plane, a cylinder or a ball: of the face through whose
 /// plane the line of action comes last, and then of the part that the contact lies on whose place the part before does not
-/// hold. A convex body has no other. On edges and corners, `levers` say how
-/// many radii the lever is at which the force [`bears`] the spin torque.
+/// hold. A convex body has no other. On edges and corners, `levers` say how many radii the lever is at which the force
+/// [`bears`] the spin torque.
 #[inline(always)]
 pub(super) fn steeply_on_rounded_box<T: Real>(
     shape: &RoundedBox<T>,
@@ -149,33 +150,20 @@ impl<T: Real> Parts<T> {
     /// its radius: a cylinder where one of the three sides is zero, of which `det D = 0`, and a ball where none is.
     #[inline(always)]
     fn on_round(&self, side: &Vector3<T>, push: &ForceLine<T>) -> (SoftContact<T>, bool) {
-        let half = T::literal(0.5);
         let centre = self.core.component_mul(side);
         let (f, m) = (push.force(), push.torque_about(&centre) * self.curvature);
         let power = f.dot(&push.torque()) * self.curvature;
         let d = side.abs();
         let adjugate = Vector3::new(d.y * d.z, d.z * d.x, d.x * d.y);
-        let determinant = adjugate.x * d.x;
         let (across, turning) = (f.component_mul(&d), m.component_mul(&adjugate));
         let (force, torque) = (across.norm_squared(), turning.norm_squared());
-        let (sigma, squares) = (torque - force, torque + force);
-        let twice = (power + power) * determinant;
-        let root = (sigma * sigma + twice * twice).root();
-        let larger = ((root + sigma.abs()) * half).root();
-        let smaller = power.abs() / larger;
-        let misses = sigma >= T::zero();
-        let spin = select_unpredictable(misses, larger, smaller).copysign(-power);
-        // No spin torque bends a line that misses an edge back to it.
-        let along = select_unpredictable(misses, smaller * determinant, larger);
-        let place = (turning * spin + across.cross(&m) - f * along) * (T::one() / ((root + squares) * half));
-
-        let (pressing_squared, fourth) = (along * along, squares * squares);
-        let (point, spin_torque) = (centre + place * self.rounding, spin * self.rounding);
-        let is_in_range = (fourth >= ForceLine::least_squared()) & (fourth <= T::GREATEST);
-        let is_steep = pressing_squared >= flat::<T>() * flat::<T>() * push.squared();
-        let is_borne = bears(pressing_squared, spin_torque, self.rounding * self.levers);
+        let parted = Parted::new([force, torque], torque - force, power, adjugate.x * d.x);
+        let place = (turning * parted.spin + across.cross(&m) - f * parted.along) * parted.inverse;
+        let (point, spin_torque) = (centre + place * self.rounding, parted.spin * self.rounding);
+        let is_steep = is_steep(parted.squares, parted.along, push.squared());
+        let is_borne = bears(parted.along * parted.along, spin_torque, self.rounding * self.levers);
         let found = SoftContact { point, normal: place.component_mul(&d), spin_torque, active: true };
-        (found, is_in_range & is_steep & is_borne)
+        (found, is_steep & is_borne)
     }
 
     /// The side of the part that a contact on another part's whole plane, cylinder or ball is beside.
