@@ -8,6 +8,7 @@ mod payload_parts;
 mod payload_sureness;
 mod pose_noise;
 mod poses;
+mod products;
 mod quadratic;
 
 pub use error::PayloadError;

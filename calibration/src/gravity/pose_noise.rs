@@ -1,7 +1,8 @@
 //! How noisy the six components of a wrench are, by what a fit to poses leaves, and how sure that makes the fit.
 
-use nalgebra::{DMatrix, DVector, Matrix6, SymmetricEigen, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, SVector, SymmetricEigen, Vector6};
 
+use super::products::{Derivatives, Products};
 use super::quadratic::{Symmetric, variance_of_form};
 
 /// The greatest step from the variance of one component to the next, as a logarithm: a deviation of ten times.
@@ -26,10 +27,10 @@ pub(super) struct PoseNoise {
     unbiased: DMatrix<f64>,
     /// Degrees of freedom behind each component.
     freedom: Vector6<f64>,
-    slopes: Vec<DMatrix<f64>>,
-    moves: Vec<DMatrix<f64>>,
-    /// What the doubt of the weights of the components adds.
-    besides: Vec<Besides>,
+    by: Derivatives,
+    /// What the doubt of the weights of the components adds: of each, the changes of the moves, and the variance of their
+    /// factor.
+    besides: Vec<(Products, f64)>,
     /// The units.
     units: Vector6<f64>,
 }
@@ -45,7 +46,6 @@ impl PoseNoise {
         besides: impl IntoIterator<Item = Besides>,
     ) -> Self {
         let count = left.len() as f64;
-        let parameters = moves.first().map_or(0, DMatrix::ncols);
         let squares = left.iter().fold(Vector6::zeros(), |sum, r| sum + r.component_mul(r)) / count;
         // Forces and torques have units of their own.
         let units = squares.map(|mean| if mean > 0.0 { mean.sqrt() } else { 1.0 });
@@ -56,14 +56,12 @@ impl PoseNoise {
             let r = r.component_mul(&inverse);
             sum + r * r.transpose()
         });
-        let own = (slopes.iter().zip(&moves)).fold(Matrix6::zeros(), |sum, (d, p)| sum + d * p.transpose());
+        let by = Derivatives::of(&slopes, &moves);
+        let (own, carried) = (by.taken_up(), by.slopes.between_those_around(&by.moves));
         let mean = |covariance: &Matrix6<f64>| {
-            let moved = moves
-                .iter()
-                .fold(DMatrix::zeros(parameters, parameters), |sum, p| sum + p.tr_mul(&(covariance * p)));
-            let carried = slopes.iter().fold(Matrix6::zeros(), |sum, d| sum + d * &moved * d.transpose());
             let twice = own * covariance;
-            covariance * count - twice - twice.transpose() + carried
+            let carried = carried * SVector::<f64, 36>::from_column_slice(covariance.as_slice());
+            covariance * count - twice - twice.transpose() + Matrix6::from_column_slice(carried.as_slice())
         };
         let freedom = own.diagonal().map(|own| (count - own).max(f64::MIN_POSITIVE));
         let unbiased = Symmetric::matrix_of(mean)
@@ -72,12 +70,12 @@ impl PoseNoise {
             .map_or_else(|| alike(&freedom, &units), |inverse| inverse.transpose());
         let found = Symmetric::applied(&unbiased.transpose(), &products);
         let covariance = positive(&found, &products, &freedom);
-        let in_these_units = |besides: Besides| Besides {
-            changes: besides.changes.iter().map(|by| in_units(by, &units)).collect(),
-            ..besides
+        let in_these_units = |besides: Besides| {
+            let changes: Vec<_> = besides.changes.iter().map(|by| in_units(by, &units)).collect();
+            (Products::of(&changes, &changes), besides.variance)
         };
         let besides = besides.into_iter().map(in_these_units).collect();
-        Self { covariance, unbiased, freedom, slopes, moves, besides, units }
+        Self { covariance, unbiased, freedom, by, besides, units }
     }
 
     /// What each component should count in a fit, by its noise beside that of the two others of its kind; and what is not
@@ -121,20 +119,15 @@ impl PoseNoise {
     /// Standard deviation of a combination of the parameters, and the degrees of freedom behind it: `2 v²/Var(v)` of its
     /// variance v (Satterthwaite 1946), a form of what is left.
     pub(super) fn of(&self, combination: &DVector<f64>) -> (f64, f64) {
-        let form_of = |moves: &[DMatrix<f64>]| {
-            moves.iter().fold(Matrix6::zeros(), |sum, by| {
-                let moved = by * combination;
-                sum + Matrix6::from_fn(|a, b| moved[a] * moved[b])
-            })
-        };
-        let form = form_of(&self.moves);
+        let squares = combination * combination.transpose();
+        let form = self.by.moves.between(&squares);
         let mut variance = form.dot(&self.covariance);
         let of_left = Symmetric::applied(&self.unbiased, &form);
-        let uncertain = variance_of_form(&of_left, &self.covariance, &self.slopes, &self.moves);
+        let uncertain = variance_of_form(&of_left, &self.covariance, &self.by);
         let freedom =
             if uncertain > 0.0 { 2.0 * variance * variance / uncertain } else { self.freedom.sum() };
-        for Besides { changes, variance: of_weight } in &self.besides {
-            variance += 2.0 * of_weight * form_of(changes).dot(&self.covariance);
+        for (changes, of_weight) in &self.besides {
+            variance += 2.0 * of_weight * changes.between(&squares).dot(&self.covariance);
         }
         (variance.max(0.0).sqrt(), freedom)
     }
@@ -294,7 +287,7 @@ mod tests {
         (0..12).for_each(|pose| forms.view_mut((6 * pose, 6 * pose), (6, 6)).copy_from(&form));
         let of_left = forms * all;
         let expected = 2.0 * (&of_left * &of_left).trace();
-        let found = variance_of_form(&form, &covariance, &slopes, &moves);
+        let found = variance_of_form(&form, &covariance, &Derivatives::of(&slopes, &moves));
         assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
     }
 

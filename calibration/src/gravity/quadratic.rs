@@ -2,6 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
+use super::products::Derivatives;
+
 /// Symmetric 6×6 matrices as vectors whose scalar product is that of the matrices, the trace of their product.
 pub(super) struct Symmetric;
 
@@ -49,30 +51,25 @@ impl Symmetric {
 /// Variance of `Σ_i r_iᵀ B r_i` of what is left, `r_i = e_i − D_i Σ_j P_jᵀ e_j`, of normal errors with the covariance Σ:
 /// `2 tr((W Σ)²)` (Searle 1971), where `W = B + U N Uᵀ` over all poses, `U_i = (P_i, B D_i)`,
 /// `N = ((Σ D_iᵀ B D_i, −1), (−1, 0))`, so that nothing larger than twice the parameters is multiplied.
-pub(super) fn variance_of_form(
-    form: &Matrix6<f64>,
-    covariance: &Matrix6<f64>,
-    slopes: &[DMatrix<f64>],
-    moves: &[DMatrix<f64>],
-) -> f64 {
-    let size = moves.first().map_or(0, DMatrix::ncols);
+pub(super) fn variance_of_form(form: &Matrix6<f64>, covariance: &Matrix6<f64>, of: &Derivatives) -> f64 {
+    let size = of.moves.parameters();
     let mut inner = DMatrix::zeros(2 * size, 2 * size);
-    let (mut once, mut twice) = (inner.clone(), inner.clone());
-    let around = covariance * form * covariance;
-    for (slope, by) in slopes.iter().zip(moves) {
-        let formed = form * slope;
-        let mut corner = inner.view_mut((0, 0), (size, size));
-        corner += slope.tr_mul(&formed);
-        let mut both = DMatrix::zeros(6, 2 * size);
-        both.columns_mut(0, size).copy_from(by);
-        both.columns_mut(size, size).copy_from(&formed);
-        once += both.tr_mul(&(covariance * &both));
-        twice += both.tr_mul(&(around * &both));
-    }
+    inner.view_mut((0, 0), (size, size)).copy_from(&of.slopes.around(form));
     inner.view_mut((0, size), (size, size)).fill_diagonal(-1.0);
     inner.view_mut((size, 0), (size, size)).fill_diagonal(-1.0);
+    // `Σ_i U_iᵀ F U_i`.
+    let around = |middle: &Matrix6<f64>| {
+        let across = of.across.around(&(middle * form));
+        let mut both = DMatrix::zeros(2 * size, 2 * size);
+        both.view_mut((0, 0), (size, size)).copy_from(&of.moves.around(middle));
+        both.view_mut((0, size), (size, size)).copy_from(&across);
+        both.view_mut((size, 0), (size, size)).copy_from(&across.transpose());
+        both.view_mut((size, size), (size, size)).copy_from(&of.slopes.around(&(form * middle * form)));
+        both
+    };
     let of_form = form * covariance;
-    let carried = &inner * once;
-    let alone = slopes.len() as f64 * (of_form * of_form).trace();
-    2.0 * (alone + 2.0 * (&inner * twice).trace() + (&carried * &carried).trace())
+    let carried = &inner * around(covariance);
+    let twice = &inner * around(&(covariance * of_form));
+    let alone = of.poses * (of_form * of_form).trace();
+    2.0 * (alone + 2.0 * twice.trace() + (&carried * &carried).trace())
 }
