@@ -1,7 +1,7 @@
 //! Finds every place of a file where a fault can be put.
 //!
 //! Faults are swapped operators, turned signs, turned or removed conditions, `min` for `max`, and removed
-//! statements. Left alone are tests, constants and `const fn` (a switch cannot be asked there), types,
+//! statements. Left alone are tests, what is behind a feature that is off, constants and `const fn` (a switch cannot be asked there), types,
 //! patterns, macros, and the writing of texts (`Display`, `Debug`).
 
 use std::ops::Range;
@@ -10,12 +10,13 @@ use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 use syn::{BinOp, Expr, UnOp};
 
+use crate::compiled::is_left_out;
 use crate::fault::{Fault, Form};
 
 /// All faults of a file, or why it cannot be read.
 pub fn faults(file: &str, text: &str) -> syn::Result<Vec<Fault>> {
     let tree = syn::parse_file(text)?;
-    if is_for_tests(&tree.attrs) {
+    if is_left_out(&tree.attrs) {
         return Ok(Vec::new());
     }
     let mut finder = Finder { file, text, faults: Vec::new() };
@@ -111,34 +112,21 @@ fn has_let(expression: &Expr) -> bool {
     }
 }
 
-fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
-    attributes.iter().any(|attribute| match &attribute.meta {
-        syn::Meta::Path(path) => path.is_ident("test"),
-        syn::Meta::List(list) => {
-            list.path.is_ident("cfg") && {
-                let words = list.tokens.to_string();
-                words.split(|c: char| !c.is_alphanumeric()).any(|word| word == "test")
-            }
-        }
-        syn::Meta::NameValue(_) => false,
-    })
-}
-
 impl<'ast> Visit<'ast> for Finder<'_> {
     fn visit_item_mod(&mut self, module: &'ast syn::ItemMod) {
-        if !is_for_tests(&module.attrs) {
+        if !is_left_out(&module.attrs) {
             visit::visit_item_mod(self, module);
         }
     }
 
     fn visit_item_fn(&mut self, function: &'ast syn::ItemFn) {
-        if !is_for_tests(&function.attrs) && function.sig.constness.is_none() {
+        if !is_left_out(&function.attrs) && function.sig.constness.is_none() {
             visit::visit_item_fn(self, function);
         }
     }
 
     fn visit_impl_item_fn(&mut self, function: &'ast syn::ImplItemFn) {
-        if !is_for_tests(&function.attrs) && function.sig.constness.is_none() {
+        if !is_left_out(&function.attrs) && function.sig.constness.is_none() {
             visit::visit_impl_item_fn(self, function);
         }
     }
@@ -146,7 +134,7 @@ impl<'ast> Visit<'ast> for Finder<'_> {
     fn visit_item_impl(&mut self, block: &'ast syn::ItemImpl) {
         let name = block.trait_.as_ref().and_then(|(_, path, _)| path.segments.last());
         let writes = name.is_some_and(|name| name.ident == "Display" || name.ident == "Debug");
-        if !writes && !is_for_tests(&block.attrs) {
+        if !writes && !is_left_out(&block.attrs) {
             visit::visit_item_impl(self, block);
         }
     }

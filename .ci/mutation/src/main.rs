@@ -5,6 +5,7 @@
 //! down which test comes by which fault, so that each fault is tried with the tests that can notice it.
 
 mod build;
+mod compiled;
 mod equivalents;
 mod fault;
 mod find;

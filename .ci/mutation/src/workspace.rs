@@ -26,7 +26,7 @@ const NOT: &[&str] =
     &["/tests/", "/tests.rs", "/testing/", "/testing.rs", "_tests.rs", "/fuzz/", "/examples/", "/test_"];
 
 /// Features that no package turns on in another when `cargo test` is called for all.
-const OFF: &[&str] = &["foxglove", "libm", "ros2", "web"];
+pub const OFF: &[&str] = &["foxglove", "libm", "ros2", "web"];
 
 #[derive(Debug, Deserialize)]
 pub struct Package {

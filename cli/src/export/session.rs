@@ -246,6 +246,9 @@ mod tests {
         let gauges = std::fs::read_to_string(examples.join("gauges.toml")).unwrap();
         let zeroed = gauges.replace("range = [", "zero = [0.5, -0.25, 0.125, 0.0625, 1.0, -1.0]\nrange = [");
         scenes.push(("gauges with a zero", Scene::from_text(&zeroed).unwrap()));
+        let grip = "[grip]\nleast_N = 0.2\ngreatest_N = 20.0\nrise_N_per_s = 100.0\nfall_N_per_s = 2.0\n";
+        let sphere = std::fs::read_to_string(examples.join("paper_sphere.toml")).unwrap();
+        scenes.push(("paper_sphere that grips", Scene::from_text(&(sphere + grip)).unwrap()));
         for (name, scene) in scenes {
             let single = scene.to_c(Scalar::F32, None, "tip").unwrap();
             let double = scene.to_c(Scalar::F64, None, "tip").unwrap();

@@ -304,8 +304,11 @@ mod tests {
         assert!(matches!(again.next(), Ok(Event::Lost(why)) if why == "the line was closed"));
         // Between connections what was lost before still counts.
         assert_eq!((again.losses().lost, again.losses().late, again.reconnections()), (Some(1), 2, 0));
+        let before = Instant::now();
         assert!(matches!(again.next(), Ok(Event::Nothing)));
         assert_eq!((again.losses().lost, again.losses().late, again.reconnections()), (Some(2), 4, 1));
+        // Its silence counts from here.
+        assert!(again.heard >= before);
         assert!(matches!(again.next(), Ok(Event::Sample(..))));
         assert!(matches!(again.next(), Ok(Event::Lost(why)) if why.starts_with("pulled; is the sensor on")));
         // There is no third connection: it goes on trying.

@@ -108,6 +108,7 @@ fn a_cut_recording_is_read_and_recovered() {
     assert!((800..1400).contains(&rows), "{rows}");
     let said = folder.succeed(&["recover", "cut.mcap", "new.mcap"]);
     assert!(said.contains("/left/ft: ") && said.contains("Lost: what came behind them"), "{said}");
+    assert_eq!(said.matches("Lost: ").count(), 1, "{said}");
     let said = folder.succeed(&["info", "new.mcap"]);
     assert!(
         said.replace('\u{202f}', "").contains(&format!("/left/ft: {rows} messages"))
@@ -118,6 +119,13 @@ fn a_cut_recording_is_read_and_recovered() {
         folder.succeed(&["recover", "new.mcap", "again.mcap"]).lines().last(),
         Some("Written: again.mcap")
     );
+    // Behind the header, which comes behind eight bytes: a message of a channel that nothing describes.
+    let header = 17 + usize::try_from(u64::from_le_bytes(whole[9..17].try_into().unwrap())).unwrap();
+    let message = [&[5, 22, 0, 0, 0, 0, 0, 0, 0][..], &[99; 22]].concat();
+    fs::write(folder.path("strange.mcap"), [&whole[..header], &message, &whole[header..]].concat()).unwrap();
+    let said = folder.succeed(&["recover", "strange.mcap", "known.mcap"]);
+    let lost: Vec<&str> = said.lines().filter(|line| line.starts_with("Lost: ")).collect();
+    assert_eq!(lost, ["Lost: 1 records that are damaged"], "{said}");
     // Nothing in it: nothing is written.
     fs::write(folder.path("head.mcap"), &whole[..60]).unwrap();
     let error = folder.fail(1, &["recover", "head.mcap", "none.mcap"]);
