@@ -103,18 +103,22 @@ fn analysed<S: Sink>(
     let mut source = Source::new(&mut reader, scene, recording, arguments, notes)?;
     let array = scene.array_places().map(|places| Array::new(places, &mut reader)).transpose()?;
     let mut sink = sink()?;
-    let window = Window::new(arguments.span);
+    let mut window = Window::new(arguments.span);
     let is_drawn = !arguments.no_report;
-    let pass =
-        Pass { scene, reader: &mut reader, source: &mut source, array, window, is_drawn, sink: &mut sink };
+    let pass = Pass {
+        scene,
+        reader: &mut reader,
+        source: &mut source,
+        array,
+        window: &mut window,
+        is_drawn,
+        sink: &mut sink,
+    };
     let observations = pass.run()?;
     bar.finish_and_clear();
     let quality = *reader.quality();
     if observations.rows() == 0 {
-        if let Some(start) = arguments.span.start.filter(|_| source.rows() > 0) {
-            return Err(CliError::option("--start", start, "must be before the end of the recording"));
-        }
-        return Err(CliError::NoRows { path: recording.to_owned() });
+        return Err(window.nothing_of(recording));
     }
     let findings = summary::of_recording(&Run {
         recording,
@@ -144,7 +148,7 @@ struct Pass<'a, S> {
     reader: &'a mut Rows,
     source: &'a mut Source,
     array: Option<Array>,
-    window: Window,
+    window: &'a mut Window,
     /// Whether a report is made of it.
     is_drawn: bool,
     sink: &'a mut S,
@@ -160,7 +164,7 @@ impl<S: Sink> Pass<'_, S> {
         let mut watched =
             watched.map_err(|problem| CliError::Recording(self.reader.header_error(problem)))?;
         watched.limit(sensor, self.scene.calibration().and_then(|file| file.range));
-        let Self { scene, reader, source, mut array, mut window, sink, .. } = self;
+        let Self { scene, reader, source, mut array, window, sink, .. } = self;
         let mut fused = Fused::default();
         let health = ahead::read(reader, watched, |block| {
             for row in block.rows() {
@@ -198,7 +202,7 @@ impl<S: Sink> Pass<'_, S> {
             }
             Ok(ControlFlow::Continue(()))
         })?;
-        source.has_rested(&window, Path::new(reader.file()), observations.count_of(Status::Rest))?;
+        source.has_rested(window, Path::new(reader.file()), observations.count_of(Status::Rest))?;
         seen(&health).into_iter().for_each(|fault| source.note(fault));
         if let Some(note) = array.as_ref().and_then(Array::note) {
             source.note(note);

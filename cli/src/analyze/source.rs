@@ -173,7 +173,7 @@ impl Source {
     }
 
     /// The seconds of rest that the recording was too short for.
-    pub(super) fn unfinished_rest(&self) -> Option<f64> {
+    fn unfinished_rest(&self) -> Option<f64> {
         self.rest.filter(|_| self.rows > 0)
     }
 

@@ -68,6 +68,19 @@ fn a_filter_begins_anew_behind_a_gap() {
     assert_eq!(first_behind(0.2), 1.0);
 }
 
+/// One scene serves recordings of volts and of wrenches, and says which part of it is idle.
+#[test]
+fn a_calibration_that_wrenches_do_not_need_is_said_to_be_idle() {
+    let folder = folder(&push(0.0, 0.0));
+    folder.write("loads.csv", &crate::calibrate::loads(1.0));
+    folder.succeed(&["calibrate", "loads.csv", "-o", "cal.toml"]);
+    let said = "[sensor] of the scene is not used: the recording holds wrenches";
+    assert!(!folder.succeed(&ANALYZE).contains(said));
+    folder.write("scene.toml", &format!("{SCENE}[sensor]\ncalibration = \"cal.toml\"\n"));
+    let text = folder.succeed(&with(&["--overwrite"]));
+    assert!(text.contains(said) && text.contains("1 contact"), "{text}");
+}
+
 #[test]
 fn every_outcome_has_its_word_and_every_contact_its_numbers() {
     let rows = [
@@ -423,6 +436,16 @@ fn a_part_of_a_recording_is_analysed() {
         let output = folder.run(&with(&options));
         let error = String::from_utf8(output.stderr).unwrap();
         assert!(!output.status.success() && error.contains(says), "{error}");
+    }
+    // Where nothing is left, it is said why.
+    folder.write("scene.toml", SCENE);
+    for (rows, options, says) in [
+        ("", ["--start=1", "--end=2"], "touch.csv has a header but no rows"),
+        (&rows, ["--start=0.003", "--end=0.007"], "--start 0.003 has no row between itself and --end"),
+    ] {
+        folder.write("touch.csv", &format!("{HEADER}{rows}"));
+        let error = folder.fail(1, &with(&options));
+        assert!(error.contains(says), "{error}");
     }
 }
 

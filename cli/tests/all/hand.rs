@@ -362,11 +362,92 @@ fn what_else_touches_disturbances_and_quality_are_told_where_they_are_asked_for(
         ("every_s = 0.015", "every_s = -1.0", "every_s = -1 of [quality] must be finite"),
         ("effort = \"each\"", "effort = \"none\"", "effort"),
         ("mass_kg = 0.1", "mass_kg = 0.1\ncolour = 1", "colour"),
+        ("mass_kg = 0.1", "mass_kg = inf", "mass_kg = inf of [object] must be positive and finite"),
+        ("mass_kg = 0.1", "mass_kg = 0.1\ncentre_m = [0.0, nan, 0.0]", "of [object] must be finite"),
+        ("[0.0, -10.0, 0.0]", "[0.0, -inf, 0.0]", "of [object] must be finite"),
+        ("force_N = [0.0, -1.0, 0.0]", "force_N = [0.0, nan, 0.0]", "and all finite"),
+        ("length_m = 0.02", "length_m = inf", "length_m = inf of [quality] must be positive and finite"),
+        ("every_s = 0.015", "every_s = inf", "every_s = inf of [quality] must be finite"),
     ] {
         folder.write("bad.toml", &format!("{soft}{}", asked.replacen(from, to, 1)));
         let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "bad.toml", "--overwrite"]);
         assert!(text.contains(said), "{said}:\n{text}");
     }
+}
+
+/// What lies between two times is told, and where nothing does, why.
+#[test]
+fn a_part_of_a_grasp_is_analysed() {
+    let folder = folder();
+    let rows =
+        |of: &[f64]| -> String { of.iter().map(|time| format!("{time},{}\n", row(4.0, 2.0))).collect() };
+    let times = [5.0, 6.0, 7.0, 8.0, 9.0];
+    folder.write("grip.csv", &format!("t_s,{HEADER}\n{}", rows(&times)));
+    let analyze = ["analyze", "grip.csv", "--scene", "hand.toml", "--output", "grasp.csv", "--overwrite"];
+    for (part, expected) in [
+        (&[][..], &times[..]),
+        (&["--start", "1", "--end", "3"], &times[1..4]),
+        (&["--start", "3"], &times[3..]),
+        (&["--end", "0"], &times[..1]),
+    ] {
+        let said = folder.succeed(&[&analyze[..], part].concat());
+        let grasp = Contacts::parse(&folder.read("grasp.csv"));
+        assert_eq!(grasp.numbers("t_s"), expected, "{part:?}");
+        assert_eq!(said.contains("only what was recorded"), !part.is_empty(), "{said}");
+    }
+    let rest = SPHERE.replace("[input]\n", "[input]\nrest_s = 2.5\n");
+    for (scene, rows, part, says) in [
+        (SPHERE, rows(&times), &["--start", "9"][..], "--start 9 must be before the end of the recording"),
+        (
+            SPHERE,
+            rows(&times),
+            &["--start", "1.2", "--end", "1.8"],
+            "--start 1.2 has no row between itself and",
+        ),
+        (SPHERE, String::new(), &["--start", "1"], "grip.csv has a header but no rows"),
+        (SPHERE, String::new(), &[], "grip.csv has a header but no rows"),
+        (&rest, rows(&times), &["--end", "1"], "--end 1 must be behind `rest_s` of the scene"),
+        (
+            &rest,
+            rows(&times[..2]),
+            &[],
+            "grip.csv ends within the 2.5 s of rest that the scene states (2 rows)",
+        ),
+    ] {
+        folder.write("tip.toml", scene);
+        folder.write("grip.csv", &format!("t_s,{HEADER}\n{rows}"));
+        let error = folder.fail(1, &[&analyze[..], part].concat());
+        assert!(error.contains(says), "{says}:\n{error}");
+    }
+}
+
+/// Of what was before samples that are missing a filter knows nothing, at each finger.
+#[test]
+fn the_filters_of_the_fingers_begin_anew_behind_a_gap() {
+    let folder = folder();
+    let filtered = SPHERE
+        .replace("version = 1", "version = 2")
+        .replace("[surface]", "[filter]\nkind = \"low_pass\"\ncutoff_Hz = 1.0\n[surface]");
+    folder.write("tip.toml", &filtered);
+    let grip_behind = |pause: f64| {
+        let rows = (0..60_u32).map(|k| {
+            let (normal, late) = if k < 50 { (6.0, 0.0) } else { (2.0, pause) };
+            format!("{},{}\n", 0.01 * f64::from(k) + late, row(normal, 1.0))
+        });
+        folder.write("grip.csv", &format!("t_s,{HEADER}\n{}", rows.collect::<String>()));
+        folder.succeed(&[
+            "analyze",
+            "grip.csv",
+            "--scene",
+            "hand.toml",
+            "--output",
+            "grasp.csv",
+            "--no-report",
+        ]);
+        Contacts::parse(&folder.read("grasp.csv")).numbers("grip_N")[50]
+    };
+    assert!(grip_behind(0.0) > 8.0);
+    assert!((grip_behind(0.2) - 4.0).abs() < 1e-6);
 }
 
 #[test]

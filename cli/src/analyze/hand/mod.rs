@@ -76,17 +76,15 @@ fn one(
     };
     let mut writer = GraspWriter::create(output, outputs, scene)?;
     let mut seen = Seen::new(scene);
-    read(scene, &mut tips, asked, &mut reader, Window::new(arguments.span), &mut writer, &mut seen)?;
+    let mut window = Window::new(arguments.span);
+    read(scene, &mut tips, asked, &mut reader, &mut window, &mut writer, &mut seen)?;
     bar.finish_and_clear();
     for (tip, finger) in tips.iter().zip(&scene.fingers) {
-        if let Some(rest) = tip.source.unfinished_rest() {
-            let (path, rows) = (recording.to_owned(), seen.rows());
-            return Err(CliError::RestTooLong { path, rest, rows });
-        }
+        tip.source.has_rested(&window, recording, seen.rows())?;
         notes.extend(tip.source.notes().iter().map(|note| format!("finger {}: {note}", finger.name)));
     }
     if seen.rows() == 0 {
-        return Err(CliError::NoRows { path: recording.to_owned() });
+        return Err(window.nothing_of(recording));
     }
     writer.finish()?;
     let findings = seen.findings(recording, notes);
@@ -188,7 +186,7 @@ fn read(
     tips: &mut [Tip],
     mut asked: Asked<'_>,
     reader: &mut Rows,
-    mut window: Window,
+    window: &mut Window,
     writer: &mut GraspWriter,
     seen: &mut Seen,
 ) -> Result<(), CliError> {
