@@ -56,6 +56,11 @@ pub(super) fn read(
     })
 }
 
+/// How many rows of so many columns a block has.
+fn rows_of_block(columns: usize) -> usize {
+    ROWS.min(VALUES / columns.max(1)).max(1)
+}
+
 /// Sends blocks until the recording ends or nobody takes them.
 fn read_ahead(
     reader: &mut Rows,
@@ -63,7 +68,7 @@ fn read_ahead(
     full: &SyncSender<RowBlock>,
     free: &Receiver<RowBlock>,
 ) -> (WatchedRows, Result<(), CliError>) {
-    let rows = ROWS.min(VALUES / reader.layout().columns().len().max(1)).max(1);
+    let rows = rows_of_block(reader.layout().columns().len());
     loop {
         let mut block = free.try_recv().unwrap_or_default();
         let more = reader.read_block(&mut block, rows);
@@ -74,5 +79,18 @@ fn read_ahead(
             Ok(true) if is_taken => {}
             more => return (watched, more.map(drop).map_err(CliError::from)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{VALUES, rows_of_block};
+
+    #[test]
+    fn a_block_is_as_large_however_wide_a_recording_is() {
+        for (columns, rows) in [(0, 1024), (1, 1024), (8, 1024), (9, 910), (64, 128), (100_000, 1)] {
+            assert_eq!(rows_of_block(columns), rows, "{columns} columns");
+        }
+        assert!((1..=VALUES).all(|columns| rows_of_block(columns) * columns <= VALUES));
     }
 }
