@@ -253,3 +253,26 @@ fn a_track_tells_the_places_too() {
     let radius = numbers(&text, "radius");
     assert!((radius[0] - 30.0).abs() < radius[1] && radius[1] < 0.2, "{text}");
 }
+
+/// Of what was before samples that are missing a filter knows nothing: the first touch behind them is where it is.
+#[test]
+fn a_filter_begins_anew_behind_a_gap() {
+    let folder = folder(ball);
+    let filter = "version = 2\n[filter]\nkind = \"low_pass\"\ncutoff_Hz = 1.0\n";
+    let (_, scene) = TIP.split_once("version = 2\n").unwrap();
+    folder.write("tip.toml", &format!("{filter}{}", scene.replacen("name = \"ball tip\"\n", "", 1)));
+    let last_touch = |pause: f64| -> Vec<f64> {
+        // On top of the fingertip, and then at its side, elsewhere.
+        let rows = (0..60_u32).map(|k| match k {
+            0..50 => format!("{},0,0,-2,0,0,0,0,0,0,1,0,0,0\n", 0.01 * f64::from(k)),
+            _ => format!("{},-2,0,0,0,0,0,0.1,0,0,1,0,0,0\n", 0.01 * f64::from(k) + pause),
+        });
+        folder.write("touches.csv", &format!("{HEADER}\n{}", rows.collect::<String>()));
+        folder.succeed(&["object", "touches.csv", "--scene", "tip.toml", "-o", "p.ply", "--overwrite"]);
+        let ply = folder.read("p.ply");
+        ply.lines().last().unwrap().split(' ').take(3).map(|x| x.parse().unwrap()).collect()
+    };
+    let off = |place: &[f64]| (place[0] - 0.113).hypot(place[2]);
+    assert!(off(&last_touch(0.0)) > 1e-3);
+    assert!(off(&last_touch(0.2)) < 1e-8);
+}

@@ -109,3 +109,44 @@ impl Touched {
         (self.samples, self.touches)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Gathered, Object, Touched};
+    use fingertip::wrench::{RigidTransform, Sensor, Wrench};
+    use fingertip_calibration::object::ObjectPoint;
+    use fingertip_scene::Scene;
+    use nalgebra::{Matrix3, Vector3};
+
+    #[test]
+    fn a_touch_is_the_mean_of_its_samples_by_their_weights() {
+        let sample = |x: f64| ObjectPoint {
+            point: Vector3::new(x, 0.0, 2.0),
+            normal: Vector3::new(0.0, x, 1.0),
+            covariance: Matrix3::from_diagonal(&Vector3::new(x, 1.0, 0.0)),
+            bend: Matrix3::from_diagonal(&Vector3::new(70.0, 10.0 * x, 0.0)),
+        };
+        let mut gathered = Gathered::begin(RigidTransform::identity());
+        gathered.add(&sample(4.0), 0.5);
+        gathered.add(&sample(8.0), 1.5);
+        assert_eq!(gathered.mean(), sample(7.0));
+    }
+
+    const BALL: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\n\
+        radius_m = 0.013\n[contact]\nleast_force_N = 0.0\n";
+
+    /// A force whose square is no number above zero has no weight, and would make a touch of no place.
+    #[test]
+    fn forces_too_weak_to_count_are_no_touch() {
+        let pose: RigidTransform<f64, Object, Sensor> = RigidTransform::identity();
+        let mut pipeline = Scene::from_text(BALL).unwrap().pipeline();
+        for (force, touches) in [(1.0, 1), (1e-150, 1), (1e-170, 0), (1e-300, 0), (0.0, 0)] {
+            let mut touched = Touched::new(1e-3);
+            pipeline.sense(Wrench::from_force_at(&Vector3::zeros(), Vector3::new(0.0, 0.0, -force)), 0.0);
+            touched.sample(&pipeline, Some(&pose));
+            let (samples, found) = touched.finish();
+            assert_eq!((samples, found.len()), (touches, touches as usize), "{force} N");
+            assert!(found.iter().all(|touch| (touch.point.z - 0.013).abs() < 1e-12), "{found:?}");
+        }
+    }
+}
