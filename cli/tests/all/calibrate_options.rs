@@ -1,5 +1,7 @@
 //! What the options of `fingertip calibrate` do.
 
+use fingertip_calibration::file::CalibrationFile;
+
 use crate::common::Folder;
 use crate::said::{FULL, noisy, noisy_loads};
 
@@ -168,4 +170,101 @@ fn worst_first(said: &str) {
     let errors: Vec<f64> =
         reasons.map(|(text, _)| text.split_once(": ").unwrap().1.parse().unwrap()).collect();
     assert!(errors.len() >= 2 && errors.is_sorted_by(|a, b| a >= b), "{said}");
+}
+
+#[test]
+fn several_tables_of_loads_are_calibrated_as_one() {
+    let folder = Folder::new();
+    let table = noisy_loads();
+    folder.write("loads.csv", &table);
+    let (_, of_one) = calibrate(&folder, &[]);
+    let whole = CalibrationFile::from_toml(&folder.read("cal.toml")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    for (name, rows) in [("a.csv", 1..10), ("b.csv", 10..17), ("c.csv", 17..lines.len())] {
+        folder.write(name, &format!("{}\n{}\n", lines[0], lines[rows].join("\n")));
+    }
+    let parts = ["calibrate", "a.csv", "b.csv", "c.csv", "-o", "cal.toml"];
+    let of_parts = folder.succeed(&[&parts[..], &FULL].concat());
+    assert!(of_one.contains("24 samples") && of_parts.contains("24 samples"), "{of_parts}");
+    let merged = CalibrationFile::from_toml(&folder.read("cal.toml")).unwrap();
+    assert!((&merged.matrix - &whole.matrix).amax() < 1e-12);
+    assert!(merged.zero.iter().zip(&whole.zero).all(|(merged, whole)| (merged - whole).abs() < 1e-12));
+    assert_eq!(merged.provenance.source, "a.csv, b.csv, c.csv");
+}
+
+/// The range is that of what the converter reads, and not of what is left when the zero of a group is taken off.
+#[test]
+fn a_check_by_groups_does_not_ask_the_range_of_tared_readings() {
+    let folder = Folder::new();
+    // Readings around 5 V, and one without load.
+    let lifted: String = noisy_loads()
+        .lines()
+        .enumerate()
+        .map(|(row, line)| {
+            let lift = |(column, cell): (usize, &str)| match (row, column) {
+                (0, _) | (_, ..7) => cell.to_owned(),
+                _ => (cell.parse::<f64>().unwrap() + 5.0).to_string(),
+            };
+            let cells: Vec<String> = line.split(',').enumerate().map(lift).collect();
+            format!("{},{}\n", cells.join(","), if row == 0 { "group" } else { "first" })
+        })
+        .collect();
+    folder.write("loads.csv", &format!("{lifted}24,0,0,0,0,0,0,5.1,5.1,5.1,5.1,5.1,5.1,first\n"));
+    let (code, said) = calibrate(&folder, &["--range", "2", "8"]);
+    assert_eq!(code, 0, "{said}");
+    for more in [&[][..], &["--tare-groups"]] {
+        let said = folder.succeed(&[&["check", "cal.toml", "loads.csv"][..], more].concat());
+        assert!(said.contains("25 samples") && !said.contains("saturated"), "{said}");
+    }
+    // Of readings as they are it is asked.
+    let (code, said) = calibrate(&folder, &["--range", "2", "6.9"]);
+    assert_eq!(code, 0, "{said}");
+    let said = folder.succeed(&["check", "cal.toml", "loads.csv"]);
+    assert!(said.contains("saturated"), "{said}");
+}
+
+/// Loads of a sensor whose gauges have a part that grows with the square of what they feel.
+fn curved_loads(square: f64) -> String {
+    let mut text = noisy_loads().lines().next().unwrap().to_owned() + "\n";
+    for case in 0..96_u32 {
+        let mut share = [0.0; 6];
+        let place = |step: u32| (step % 6) as usize;
+        share[place(case)] = [1.0, -1.0, 0.5, -0.5][(case / 6 % 4) as usize];
+        share[place(case + 2)] += 0.25;
+        share[place(7 * case + 3)] += 0.3 * f64::from(case).sin();
+        let loads = share.iter().enumerate().map(|(i, x)| x * if i < 3 { 10.0 } else { 100.0 });
+        let volts = (0..6).map(|i| {
+            let felt = 2.0 * share[i] + 0.2 * share[(i + 1) % 6];
+            let noise = 1e-3 * (12.9 * (31.0 * f64::from(case) + 17.0 * i as f64)).sin();
+            0.1 + felt + square * felt * felt + noise
+        });
+        let cells: Vec<String> = loads.chain(volts).map(|x| format!("{x:.6}")).collect();
+        text += &format!("{case},{}\n", cells.join(","));
+    }
+    text
+}
+
+#[test]
+fn a_curved_sensor_is_told_and_calibrated() {
+    let folder = Folder::new();
+    folder.write("loads.csv", &curved_loads(0.05));
+    let run = |more: &[&str]| calibrate(&folder, more);
+    let note = "note: --curvature chosen fits terms of higher order, too";
+    let (code, said) = run(&["--accept-bad"]);
+    assert!(code == 0 && said.contains("Calibration: BAD") && said.contains(note), "{said}");
+    for choice in ["chosen", "quadratic"] {
+        let (code, said) = run(&["--curvature", choice]);
+        assert!(code == 0 && said.contains("Calibration: GOOD") && !said.contains(note), "{choice}: {said}");
+        assert!(said.contains("least squares of loads on signals, "), "{choice}: {said}");
+        let said = folder.succeed(&["check", "cal.toml", "loads.csv"]);
+        assert!(said.contains("Calibration: GOOD"), "{choice}: {said}");
+    }
+    // One that is straight gets no terms, or is refused them.
+    folder.write("loads.csv", &curved_loads(0.0));
+    let (code, said) = run(&["--curvature", "chosen"]);
+    assert!(code == 0 && said.contains("no term of higher order helps") && !said.contains(note), "{said}");
+    let (code, said) = run(&["--curvature", "quadratic"]);
+    assert!(code == 1 && said.contains("loads.csv: over-fitted: 28 coefficients"), "{said}");
+    let (code, said) = run(&[]);
+    assert!(code == 0 && !said.contains(note), "{said}");
 }

@@ -38,10 +38,19 @@ fn both_sides_of_a_gripped_ball_are_told() {
         row(0.015, &both, ["0,0,0.013,3.05", "0.013,0,0,3.2"]),
         // Of a row that cannot be used, the cells of the array are empty, too.
         "0.02,,0,0,0,0,0,0,0,0.013,3.05,0.013,0,0,3.2\n".to_owned(),
+        // Forces whose squares are no numbers.
+        row(0.025, &both, ["-0.013,0,0,1e200", "0.013,0,0,3.2"]),
+        row(0.03, &both, ["-0.013,0,0,3.05", "0.013,0,0,1e200"]),
     ];
     let folder = Folder::new();
     folder.write("grip.csv", &format!("{HEADER}{}", rows.concat()));
-    folder.succeed(&["analyze", "grip.csv", "--scene", &scene("gripped_ball.toml"), "--no-report"]);
+    let said =
+        folder.succeed(&["analyze", "grip.csv", "--scene", &scene("gripped_ball.toml"), "--no-report"]);
+    assert!(
+        said.contains("wrench and array could not be fused in 2 rows, in the first of them since: "),
+        "{said}"
+    );
+    assert!(said.contains("the reading of an array contact must be finite"), "{said}");
     let contacts = Contacts::parse(&folder.read("contacts.csv"));
     let near = |name: &str, row: usize, expected: f64, within: f64| {
         let found = contacts.numbers(name)[row];
@@ -69,6 +78,8 @@ fn both_sides_of_a_gripped_ball_are_told() {
         ("fused_disagreement", 2),
         ("fused1_x_m", 4),
         ("fused_disagreement", 4),
+        ("fused1_x_m", 5),
+        ("fused_disagreement", 6),
     ] {
         assert!(contacts.numbers(name)[row].is_nan(), "{name} of row {row}");
     }

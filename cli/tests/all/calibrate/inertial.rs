@@ -67,6 +67,21 @@ fn a_motion_tells_what_is_swung_and_a_touch_is_felt_through_it() {
     assert!(load.len() == 6 && left.len() == 6, "{said}");
     assert!(load.iter().zip(&left).all(|(load, left)| *left < 0.2 * load), "{said}");
     assert!(said.contains("[inertial_unit] of a scene takes it off in motion"), "{said}");
+    assert!(!said.contains("left out"), "{said}");
+    // Two rows lack a number.
+    let blank: String = motion(0.0, 8.0, None)
+        .lines()
+        .enumerate()
+        .map(|(row, line)| match (row, line.rsplit_once(',')) {
+            (100 | 200, Some((before, _))) => format!("{before},\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    folder.write("blank.csv", &blank);
+    let of_blank = folder.succeed(&[&["calibrate", "--inertial", "blank.csv"][..], &calibrate[3..]].concat());
+    let left_out = "2 rows without a time, a wrench or a motion are left out";
+    assert!(of_blank.contains("Payload: GOOD") && of_blank.contains(left_out), "{of_blank}");
+    folder.succeed(&calibrate);
     folder.write("touch.csv", &motion(20.0, 3.0, Some(1.5)));
     folder.write("scene.toml", SCENE);
     let analyze = ["analyze", "touch.csv", "--scene", "scene.toml", "--no-report"];
