@@ -162,6 +162,32 @@ mod tests {
         }
     }
 
+    /// Where a slip is told, is the same by the first samples that ever came and by those behind a reset.
+    #[test]
+    fn behind_a_reset_slips_are_told_as_at_the_start() {
+        let scene = scene("plane\"");
+        // A load that rises, and slips at once.
+        let rows = |begin: f64| {
+            (0..60_u32).map(move |row| {
+                let pull = if row % 20 < 13 { 0.05 * f64::from(row % 20) } else { 0.3 };
+                let force = Vector3::new(pull, 0.0, -2.0);
+                let load: Wrench<f64> = Wrench::from_force_at(&Vector3::zeros(), force);
+                (begin + f64::from(row) * 1e-3, Wrench::from_components(&-load.components()))
+            })
+        };
+        let told = |feel: &mut SceneFeel, begin: f64| -> Vec<_> {
+            rows(begin).map(|(time, wrench)| feel.feel(time, &wrench).unwrap().unwrap().slip).collect()
+        };
+        let expected = told(&mut SceneFeel::new(&scene, true), 0.0);
+        assert!(expected.iter().any(|slip| *slip != expected[0]), "{expected:?}");
+        for pause in [1e-3, 7e-3, 0.1, 0.4, 3.0] {
+            let mut feel = SceneFeel::new(&scene, true);
+            told(&mut feel, 0.0);
+            feel.start_anew();
+            assert_eq!(told(&mut feel, 0.059 + pause), expected, "{pause} s");
+        }
+    }
+
     #[test]
     fn the_ellipse_is_that_of_the_noise() {
         let mut noise = NoiseWatch::default();
