@@ -268,3 +268,24 @@ fn a_curved_sensor_is_told_and_calibrated() {
     let (code, said) = run(&[]);
     assert!(code == 0 && !said.contains(note), "{said}");
 }
+
+/// Without torques about z nothing is known of what they do, and the user learns it.
+#[test]
+fn components_without_loads_are_left_out_and_named() {
+    let folder = Folder::new();
+    let still: String = noisy_loads()
+        .lines()
+        .enumerate()
+        .filter(|(row, line)| *row == 0 || line.split(',').nth(6) == Some("0"))
+        .map(|(_, line)| format!("{line}\n"))
+        .collect();
+    folder.write("loads.csv", &still);
+    let calibrate = ["calibrate", "loads.csv", "-o", "cal.toml", "--accept-bad"];
+    let said = folder.succeed(&calibrate);
+    let note = "note: Tz: no load has any, so the calibration is for the other components alone";
+    assert!(said.contains(note), "{said}");
+    let file = CalibrationFile::from_toml(&folder.read("cal.toml")).unwrap();
+    assert!(file.axes.len() == 5 && file.axes.iter().all(|axis| axis.to_string() != "Tz"), "{:?}", file.axes);
+    folder.write("loads.csv", &noisy_loads());
+    assert!(!folder.succeed(&calibrate).contains("no load has any"));
+}

@@ -515,8 +515,22 @@ fn what_is_wrong_with_a_hand_scene_is_said_with_its_mend() {
         let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "bad.toml"]);
         assert!(text.contains(said), "{said}:\n{text}");
     }
-    let text = folder.fail(1, &["analyze", "grip.csv", "--scene", "hand.toml", "--sensor", "L"]);
-    assert!(text.contains("set `sensor` of [[finger]]"), "{text}");
+    for (option, said) in [
+        (
+            &["--sensor", "L"][..],
+            "--sensor L is said for each finger by a hand scene: set `sensor` of [[finger]]",
+        ),
+        (
+            &["--calibration", "c.toml"],
+            "--calibration c.toml is said for each finger by a hand scene: put it into",
+        ),
+        (&["--payload", "p.toml"], "--payload p.toml is said for each finger by a hand scene: put it into"),
+        (&["--json"], "is not there for a hand scene yet: read the table that --output names"),
+        (&["--start", "2", "--end", "1"], "--end 1 must not be before --start"),
+    ] {
+        let text = folder.fail(1, &[&["analyze", "grip.csv", "--scene", "hand.toml"][..], option].concat());
+        assert!(text.contains(said), "{said}:\n{text}");
+    }
     assert!(!folder.path("contacts.csv").exists());
 }
 

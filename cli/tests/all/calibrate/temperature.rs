@@ -46,6 +46,13 @@ fn drift_is_applied_or_the_calibration_refused() {
     folder.succeed(&["check", "cal.toml", "warm.csv"]);
     let error = folder.fail(1, &["check", "cal.toml", "unknown.csv"]);
     assert!(error.contains("unknown.csv") && error.contains("temperature"), "{error}");
+    let error = folder.fail(1, &["check", "cal.toml", "warm.csv", "--tare-groups"]);
+    assert!(
+        error.contains(
+            "warm.csv: the calibration drifts with temperature (reference 25 °C): a tare by group would"
+        ) && error.contains("check without --tare-groups"),
+        "{error}"
+    );
     // One temperature for all is not what they had.
     folder.fail(1, &["check", "cal.toml", "unknown.csv", "--celsius", "30", "--limit", "0.5"]);
 
@@ -64,7 +71,11 @@ fn drift_is_applied_or_the_calibration_refused() {
         [&start[..], more].concat()
     };
     for arguments in [analyze("touch.csv", &[]), analyze("bare.csv", &["--celsius", "30"])] {
-        folder.succeed(&arguments);
+        let said = folder.succeed(&arguments);
+        assert!(
+            said.contains("Note: tare: the zero of the calibration, since the scene gives no rest_s"),
+            "{said}"
+        );
         let contacts = Contacts::parse(&folder.read("contacts.csv"));
         assert!((contacts.numbers("normal_N")[0] - 4.0).abs() < 0.005, "{:?}", contacts.numbers("normal_N"));
     }
