@@ -276,3 +276,51 @@ fn a_filter_begins_anew_behind_a_gap() {
     assert!(off(&last_touch(0.0)) > 1e-3);
     assert!(off(&last_touch(0.2)) < 1e-8);
 }
+
+/// From within, the outward normal of the object is towards its middle.
+#[test]
+fn bowls_and_bores_are_told_from_balls_and_rods() {
+    let within = |of: fn(f64, f64) -> ([f64; 3], [f64; 3])| {
+        move |along, round| {
+            let (at, n) = of(along, round);
+            (at, n.map(|x| -x))
+        }
+    };
+    for (of, fit, inside, outside, expected) in [
+        (
+            ball as fn(f64, f64) -> ([f64; 3], [f64; 3]),
+            "sphere",
+            "a bowl, touched from within\n",
+            "a ball\n",
+            30.0,
+        ),
+        (rod, "cylinder", "a bore, touched from within\n", "a rod\n", 20.0),
+    ] {
+        let (convex, concave) = (folder(of), folder(within(of)));
+        let command = ["object", "touches.csv", "--scene", "tip.toml", "--fit", fit, "--pose-noise", POSES];
+        for (folder, is, is_not) in [(convex, outside, inside), (concave, inside, outside)] {
+            let text = folder.succeed(&command);
+            assert!(text.contains(is) && !text.contains(is_not), "{text}");
+            assert!((numbers(&text, "radius")[0] - expected).abs() < 0.2, "{text}");
+            assert!(!text.contains("another shape"), "{text}");
+        }
+    }
+}
+
+/// A ball that is dented by up to a millimetre.
+#[test]
+fn touches_that_do_not_fit_are_doubted() {
+    let folder = folder(|along, round| {
+        let (at, n) = ball(along, round);
+        let dent = 1e-3 * (7.0 * round).sin();
+        (core::array::from_fn(|k| at[k] + dent * n[k]), n)
+    });
+    let said = |noise: &str| {
+        let command = ["object", "touches.csv", "--scene", "tip.toml", "--fit", "sphere"];
+        folder.succeed(&[&command[..], &["--pose-noise", noise]].concat())
+    };
+    let doubt = "the object is of another shape, or --pose-noise is too small";
+    let (too_small, enough) = (said(POSES), said("0.001,0.01"));
+    assert!(too_small.contains(doubt), "{too_small}");
+    assert!(!enough.contains(doubt), "{enough}");
+}

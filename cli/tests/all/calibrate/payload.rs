@@ -97,6 +97,42 @@ fn mounting_and_sign_are_found() {
     folder.fail(2, &["calibrate", "--gravity", "poses.csv", "--html", "r.html"]);
 }
 
+/// Turns by 150° and their inverses are like each other, so that quaternions that are the wrong way round leave much, but
+/// tell a weight.
+#[test]
+fn frames_that_fit_better_are_named() {
+    let folder = Folder::new();
+    let turns = || (0..12).map(|i| Rotation3::from_axis_angle(&turn(i).axis().unwrap(), 2.6));
+    let right: Vec<String> = turns().map(|turn| row(&turn, &Rotation3::identity(), None)).collect();
+    // The quaternion of the inverse.
+    let wrong: Vec<String> = turns()
+        .zip(&right)
+        .map(|(turn, row)| {
+            let q = nalgebra::UnitQuaternion::from_rotation_matrix(&turn.inverse());
+            let wrench = row.splitn(5, ',').last().unwrap();
+            format!("{},{},{},{},{wrench}", q.i, q.j, q.k, q.w)
+        })
+        .collect();
+    let mend = "the frames seem to be readings in the axes of the sensor and quaternions from the base to the sensor: turn the \
+                quaternions round (the signs of qx, qy, qz)";
+    let said = |rows: &[String]| {
+        folder.write("poses.csv", &format!("{HEADER}{}", rows.concat()));
+        folder.succeed(&["calibrate", "--gravity", "poses.csv"])
+    };
+    let left = |said: &str| -> Vec<f64> {
+        let line = said.lines().find(|line| line.starts_with("frames ")).unwrap_or_else(|| panic!("{said}"));
+        line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+    };
+    let (right, wrong) = (said(&right), said(&wrong));
+    assert!(right.contains("Payload: GOOD") && !right.contains("the frames seem"), "{right}");
+    assert!(wrong.contains("Payload: BAD") && wrong.contains(mend), "{wrong}");
+    let (stated, otherwise) = (left(&right), left(&wrong));
+    assert!(
+        stated[0] < 1e-3 && stated[1] > 1.0 && otherwise[0] > 1.0 && otherwise[1] < 1e-3,
+        "{right}{wrong}"
+    );
+}
+
 /// Known loads on a sensor that also carries a body, in changing orientations.
 #[test]
 fn check_adds_the_weight_to_the_loads() {

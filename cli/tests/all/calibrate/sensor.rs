@@ -105,6 +105,16 @@ fn a_plan_says_which_loads_and_how_many() {
     folder.write("done.csv", &text);
     let said = folder.succeed(&["plan", "rig.csv", "--no-bias", "--accuracy", "0.5", "--done", "done.csv"]);
     assert!(said.contains("6 loads beside the 6"), "{said}");
+    for scale in ["5,5", "5,5,0", "5,-5,5", "nan,5,5"] {
+        let error = folder.fail(1, &["plan", "rig.csv", &format!("--full-scale={scale}")]);
+        assert!(
+            error.contains("--full-scale needs one positive number for each of 3 axes"),
+            "{scale}: {error}"
+        );
+    }
+    folder.write("torques.csv", "tx_Nm,ty_Nm,tz_Nm\n1,0,0\n0,1,0\n");
+    let error = folder.fail(1, &["plan", "rig.csv", "--done", "torques.csv"]);
+    assert!(error.contains("torques.csv: it has other axes than the loads that can be applied"), "{error}");
     folder.write("flat.csv", "fx_N,fy_N,fz_N\n1,0,0\n0,1,0\n");
     let error = folder.fail(1, &["plan", "flat.csv", "--most", "50"]);
     assert!(error.contains("flat.csv") && error.contains("unobserved: ") && error.contains("Fz"), "{error}");
@@ -144,6 +154,12 @@ fn motion_finds_a_sensor_of_three_components() {
     );
     let said = folder.succeed(&["check", "cal.toml", "test.csv", "--limit", "0.001"]);
     assert!(said.contains("GOOD"), "{said}");
+    folder.write("two.csv", &known.replacen(",v3_V", ",other", 1));
+    let error = folder.fail(1, &["motion", "turned.csv", "--force", "4", "--align", "two.csv"]);
+    assert!(error.contains("two.csv: it has other gauges or units than the readings"), "{error}");
+    folder.write("ratio.csv", &known.replacen("_V", "_mVpV", 3));
+    let error = folder.fail(1, &["motion", "turned.csv", "--force", "4", "--align", "ratio.csv"]);
+    assert!(error.contains("ratio.csv: it has other gauges or units than the readings"), "{error}");
     let error = folder.fail(1, &["motion", "turned.csv", "--force", "0"]);
     assert!(error.contains("turned.csv"), "{error}");
 }
@@ -232,4 +248,11 @@ fn touches_mend_a_calibration() {
     assert!(said.contains("GOOD"), "{said}");
     let error = folder.fail(1, &["refine", "cal.toml", "none.csv"]);
     assert!(error.contains("none.csv"), "{error}");
+    let lines = |column: &str| touches.replacen(",v6_V", column, 1);
+    folder.write("five.csv", &lines(",other"));
+    let error = folder.fail(1, &["refine", "cal.toml", "five.csv"]);
+    assert!(error.contains("five.csv: it has 5 gauges, the calibration 6"), "{error}");
+    folder.write("ratio.csv", &touches.replacen("_V", "_mVpV", 6));
+    let error = folder.fail(1, &["refine", "cal.toml", "ratio.csv"]);
+    assert!(error.contains("ratio.csv: its readings are in another unit than the calibration"), "{error}");
 }
