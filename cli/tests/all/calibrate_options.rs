@@ -134,9 +134,21 @@ fn a_calibration_with_an_outlier_is_to_be_looked_at() {
     folder.write("loads.csv", &off);
     let (code, said) = calibrate(&folder, &["--limit", "4"]);
     assert!(code == 0 && said.contains("SUSPECT") && said.contains(advice), "{code} {said}");
+    // Whoever uses it learns of it.
+    folder.write("volts.csv", "t_s,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V\n0,0.1,0.1,0.5,0.1,0.1,0.1\n");
+    folder.write(
+        "scene.toml",
+        "version = 1\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"sphere\"\nradius_m = 0.01\n",
+    );
+    let analyze =
+        ["analyze", "volts.csv", "--scene", "scene.toml", "--calibration", "cal.toml", "--no-report"];
+    let doubt = "the calibration calls itself suspect: ";
+    let used = folder.succeed(&analyze);
+    assert!(used.contains(doubt), "{used}");
     folder.write("loads.csv", &noisy_loads());
     let (code, said) = calibrate(&folder, &["--limit", "4"]);
     assert!(code == 0 && !said.contains(advice), "{said}");
+    assert!(!folder.succeed(&analyze).contains("calls itself"));
 }
 
 /// A calibration that is bad is an error unless it is accepted; the reasons are a line each, the worst first.

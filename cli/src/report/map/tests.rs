@@ -141,6 +141,25 @@ fn a_plane_is_drawn_to_scale_in_millimetres() {
     }
 }
 
+/// Few contacts far away do not shrink the rest; how many there are is told.
+#[test]
+fn contacts_outside_the_window_are_counted() {
+    let projection = Projection::plane(Vector3::zeros(), Vector3::z(), &axes());
+    let near = |i: i32| Vector3::new(0.01 * f64::from(i).sin(), 0.008 * f64::from(i).cos(), 0.0);
+    for (strays, remark) in [
+        (0, "Seen from outside."),
+        (1, "Seen from outside. One contact lies outside the window."),
+        (2, "Seen from outside. 2 contacts lie outside the window."),
+    ] {
+        let far = (0..strays).map(|i| Vector3::new(0.5, 0.1 * f64::from(i), 0.0));
+        let points: Vec<_> = (0..400).map(near).chain(far).collect();
+        let map = draw("test", &projection, &contacts(&projection, &points), &[]);
+        assert_eq!((map.remark.as_str(), dots(&map).len()), (remark, 400));
+        let (across, _) = rulers(&map.svg);
+        assert!(dots(&map).into_iter().all(|(x, _)| across.at(x).abs() < 10.1), "{strays}");
+    }
+}
+
 #[test]
 fn a_cylinder_is_unrolled_by_angle_and_height() {
     let half = Some(0.012);

@@ -79,6 +79,21 @@ fn drift_is_applied_or_the_calibration_refused() {
         let contacts = Contacts::parse(&folder.read("contacts.csv"));
         assert!((contacts.numbers("normal_N")[0] - 4.0).abs() < 0.005, "{:?}", contacts.numbers("normal_N"));
     }
+    // A dummy gauge would tell the same as the thermometer.
+    folder.write("dummy.csv", &format!("{header},dummy_V\n0,{},0.1\n", volts.join(",")));
+    let said = folder.succeed(&analyze("dummy.csv", &["--celsius", "30"]));
+    assert!(
+        said.contains("the dummy gauge is not used: the temperature terms of the calibration are"),
+        "{said}"
+    );
+    folder.write("plain.csv", &super::loads(1.0));
+    folder.succeed(&["calibrate", "plain.csv", "-o", "plain.toml"]);
+    let plain =
+        ["analyze", "dummy.csv", "--scene", "scene.toml", "--calibration", "plain.toml", "--no-report"];
+    let said = folder.succeed(&plain);
+    assert!(said.contains("the dummy gauge is not used: that needs a rest, rest_s in the scene"), "{said}");
+    let said = folder.succeed(&[&plain[..], &["--celsius", "30"]].concat());
+    assert!(said.contains("the temperature is known, but the calibration has no terms for it"), "{said}");
     let error = folder.fail(1, &analyze("bare.csv", &[]));
     assert!(error.contains("temperature_C") && error.contains("--celsius"), "{error}");
 
