@@ -1,7 +1,7 @@
 //! What bridges, and recordings that show the fingertip, are told once of a stream.
 
 use fingertip_bridges::About;
-#[cfg(feature = "ros2")]
+#[cfg(any(feature = "ros2", test))]
 use fingertip_bridges::{Parameter, Value};
 use fingertip_scene::{Limit, Scene};
 use nalgebra::Vector3;
@@ -33,12 +33,12 @@ pub(crate) fn about(source: &str, scene: Option<&Scene>) -> About {
 }
 
 /// Lists of more entries, meshes among them, are no parameters.
-#[cfg(feature = "ros2")]
+#[cfg(any(feature = "ros2", test))]
 const MOST_ENTRIES: usize = 1000;
 
 /// What a scene says, with its defaults, by the names of its sections and keys; a mesh that cannot be read any more
 /// leaves none.
-#[cfg(feature = "ros2")]
+#[cfg(any(feature = "ros2", test))]
 fn parameters(scene: &Scene) -> Vec<Parameter> {
     let mut all = Vec::new();
     let text = scene.to_json().unwrap_or_default();
@@ -49,7 +49,7 @@ fn parameters(scene: &Scene) -> Vec<Parameter> {
 }
 
 /// Takes a table apart into its values, and a list that holds tables into its entries by their number.
-#[cfg(feature = "ros2")]
+#[cfg(any(feature = "ros2", test))]
 fn gather(name: String, value: &serde_json::Value, all: &mut Vec<Parameter>) {
     use serde_json::Value as Json;
 
@@ -84,12 +84,12 @@ fn gather(name: String, value: &serde_json::Value, all: &mut Vec<Parameter>) {
     all.push(Parameter { name, value });
 }
 
-#[cfg(all(test, feature = "ros2"))]
+#[cfg(test)]
 mod tests {
     use fingertip_bridges::Value;
     use fingertip_scene::Scene;
 
-    use super::parameters;
+    use super::{MOST_ENTRIES, gather, parameters};
 
     #[test]
     fn a_scene_is_parameters_with_its_defaults() {
@@ -105,5 +105,32 @@ mod tests {
         assert_eq!(of("version"), Some(Value::Count(2)));
         // What the scene leaves to its default.
         assert!(of("contact.model").is_some(), "{all:?}");
+    }
+
+    /// Lists of numbers and of words stay lists, tables in a list are counted, and what says nothing is left out.
+    #[test]
+    fn every_kind_of_value_has_its_name() {
+        let text = r#"{"a": {"flag": true, "none": null, "words": ["x", "y"], "mixed": [1, "x"]},
+                       "b": [{"c": 1}, {"c": 2.5}], "empty": []}"#;
+        let gathered = |value: &serde_json::Value| {
+            let mut all = Vec::new();
+            gather(String::new(), value, &mut all);
+            all.into_iter().map(|one| (one.name, one.value)).collect::<Vec<_>>()
+        };
+        let expected = [
+            ("a.flag", Value::Flag(true)),
+            ("a.mixed.0", Value::Count(1)),
+            ("a.mixed.1", Value::Text("x".to_owned())),
+            ("a.words", Value::Texts(vec!["x".to_owned(), "y".to_owned()])),
+            ("b.0.c", Value::Count(1)),
+            ("b.1.c", Value::Number(2.5)),
+            ("empty", Value::Numbers(Vec::new())),
+        ];
+        let mut found = gathered(&serde_json::from_str(text).unwrap());
+        found.sort_by(|(a, _), (b, _)| a.cmp(b));
+        assert_eq!(found, expected.map(|(name, value)| (name.to_owned(), value)));
+        // A list is one up to its limit.
+        let list = |entries: usize| gathered(&serde_json::json!({ "list": vec![0.5; entries] })).len();
+        assert_eq!((list(MOST_ENTRIES), list(MOST_ENTRIES + 1)), (1, 0));
     }
 }
