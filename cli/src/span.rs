@@ -182,6 +182,18 @@ mod tests {
     }
 
     #[test]
+    fn a_span_of_one_instant_is_one_and_none_ends_before_it_starts() {
+        let checked = |start, end| {
+            Span { start: Some(start), end: Some(end) }.check().map_err(|error| error.to_string())
+        };
+        assert_eq!((checked(1.0, 1.0), checked(0.0, 0.0)), (Ok(()), Ok(())));
+        assert_eq!(checked(1.0, 0.5), Err("--end 0.5 must not be before --start".to_owned()));
+        let no_time = "must be a number of seconds behind the first row";
+        assert_eq!(checked(-1.0, 2.0), Err(format!("--start -1 {no_time}")));
+        assert_eq!(checked(1.0, f64::INFINITY), Err(format!("--end inf {no_time}")));
+    }
+
+    #[test]
     fn what_rounding_can_do_is_little() {
         assert!(rounding(3600.0, 0.0)(10.0) < 4e-12 && rounding(1.76e9, 1.76e9)(10.0) < 2e-6);
         assert!(rounding(1.3, 1.0)(0.3) > 2.0 * f64::EPSILON && rounding(f64::MAX, f64::MAX)(0.0) > 0.0);

@@ -197,6 +197,11 @@ fn a_ratio_without_bound_is_cut_where_it_hides_the_others() {
         caption(&scene, 40.0),
         "Only where there is a contact. Cut at 1.50; the greatest ratio is 40.0."
     );
+    let scene = scene.replace("0.9", "0.4");
+    assert_eq!(
+        caption(&scene, 40.0),
+        "Only where there is a contact. Cut at 0.600; the greatest ratio is 40.0."
+    );
 }
 
 #[test]
@@ -208,13 +213,17 @@ fn forces_that_mostly_pull_are_a_sign_of_the_wrong_sign() {
         }
         rows
     };
-    let noted = |pulling, pressing| {
-        let (_, output) = analyze(SCENE, &rows(pulling, pressing), &["--no-report"]);
-        String::from_utf8(output.stdout)
-            .unwrap()
-            .contains("more forces pull outward than press; check `convention`")
+    let said = |scene: &str, rows: &str| {
+        let (_, output) = analyze(scene, rows, &["--no-report"]);
+        String::from_utf8(output.stdout).unwrap()
     };
+    let note = "Note: more forces pull outward than press; check `convention` and the pose in the scene";
+    let noted = |pulling, pressing| said(SCENE, &rows(pulling, pressing)).contains(&format!("{note}.\n"));
     assert!(noted(3, 2) && !noted(2, 2) && !noted(1, 5));
+    // A touch during the rest turns what comes behind it round, too.
+    let resting = SCENE.replace("[surface]", "rest_s = 1.5\n[surface]");
+    let said = said(&resting, &format!("{}2,0,0,0,0,0,0\n", rows(0, 2)));
+    assert!(said.contains(&format!("{note}, and that nothing touched during rest_s.\n")), "{said}");
 }
 
 #[test]
