@@ -1,13 +1,15 @@
 use core::time::Duration;
 use std::fs;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use clap::Parser;
 use fingertip::wrench::Wrench;
 use fingertip_bridges::About;
+use indicatif::ProgressBar;
 use nalgebra::{Vector3, Vector6};
 
-use super::{Reading, RecordArguments, Recording, Stream, StreamOptions};
+use super::{NEWS, Reading, RecordArguments, Recording, Stream, StreamOptions};
 use crate::args::{Arguments, Command};
 use crate::felt::SceneFeel;
 use crate::output::Outputs;
@@ -141,4 +143,26 @@ fn a_duration_counts_from_the_first_sample_that_is_recorded() {
     let rows = written(&arguments);
     assert!(rows[0].starts_with("1.0,-1.0,") && rows[0].contains(",0.013,0.0,0.0,"), "{rows:?}");
     assert!(rows[2].ends_with(",,,,,,,,,,,,"), "{rows:?}");
+}
+
+/// The terminal is told every so often, not with every sample.
+#[test]
+fn the_line_of_news_says_how_far_it_is() {
+    let arguments = arguments("news", &[]);
+    let outputs = outputs(&arguments);
+    let line = ProgressBar::hidden();
+    let news = Some(line.clone());
+    let recording = Recording::new(&arguments, &outputs, About::default());
+    // The next is due in an hour.
+    let mut recording = Recording { news, told: Instant::now() + Duration::from_hours(1), ..recording };
+    recording.take(1.0, &reading(1.0), None).unwrap();
+    recording.news();
+    assert_eq!(line.message(), "");
+    recording.told = Instant::now().checked_sub(2 * NEWS).unwrap();
+    let before = recording.told;
+    recording.news();
+    assert_eq!(line.message(), "1 samples, 0 s (Ctrl-C ends it)");
+    assert!(recording.told > before + NEWS, "the next is due at once");
+    recording.finish(&over()).unwrap();
+    assert_eq!(written(&arguments).len(), 1);
 }

@@ -31,6 +31,40 @@ fn a_sensor_that_goes_is_an_error() {
     assert_eq!(Contacts::parse(&folder.read("a.csv")).len(), 40);
 }
 
+/// Samples that the sensor marks as bad are left out: the first ones are said, unless nothing is to be, and all are counted.
+#[test]
+fn samples_that_are_marked_as_bad_are_said_and_counted() {
+    use fingertip_drivers::sensors::bota_serial::Frame;
+    use std::io::Write as _;
+
+    let folder = Folder::new();
+    for (more, said) in [(&[][..], 3), (&["--quiet"], 0)] {
+        let listener = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+        let address = format!("bota+tcp://{}", listener.local_addr().unwrap());
+        let sensor = std::thread::spawn(move || {
+            let (mut line, _) = listener.accept().unwrap();
+            for number in 0..40_u32 {
+                let status = if (10..15).contains(&number) { 2 } else { 0 };
+                let microseconds = number * 2500;
+                let frame = Frame { status, components: [1.0; 6], microseconds, ..Frame::default() };
+                line.write_all(&frame.emit()).unwrap();
+            }
+            // Until who reads it has enough.
+            let _ = std::io::Read::read(&mut line, &mut [0]);
+        });
+        let record = ["record", &address, "-o", "a.csv", "--samples", "35", "--silence", "60", "--force"];
+        let output = folder.run(&[&record[..], more].concat());
+        sensor.join().unwrap();
+        let [out, error] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        assert!(output.status.success(), "{error}");
+        assert_eq!(error.matches("warning: ").count(), said, "{error}");
+        assert_eq!(error.contains(" (further ones are only counted)\n"), said > 0, "{error}");
+        let counted = "Samples that the sensor marked as bad or that were damaged: 5\n";
+        assert_eq!(out.contains(counted), said > 0, "{out}");
+        assert_eq!(Contacts::parse(&folder.read("a.csv")).len(), 35);
+    }
+}
+
 /// One that goes before it said anything left no recording to speak of.
 #[test]
 fn a_sensor_that_says_nothing_is_an_error() {
