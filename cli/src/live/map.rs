@@ -139,9 +139,12 @@ mod tests {
     use core::f64::consts::PI;
 
     use nalgebra::Vector3;
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+    use ratatui::style::Color;
 
     use super::super::state::State;
-    use super::{Projection, edge, extent};
+    use super::{LEAST_HEIGHT, Projection, draw, edge, extent};
 
     #[test]
     fn the_map_is_as_large_as_what_it_shows() {
@@ -164,5 +167,64 @@ mod tests {
         assert_eq!(sphere(None), (2.0, 2.0));
         assert!((edge(Some(PI / 2.0)) - 2.0_f64.sqrt()).abs() < 1e-15);
         assert_eq!(sphere(Some(1.0)), (edge(Some(1.0)), edge(Some(1.0))));
+    }
+
+    /// How many cells of a map have marks of a colour, and the columns that they reach from and to.
+    fn marks(state: &State, colour: Color) -> (usize, [u16; 2]) {
+        let mut terminal = Terminal::new(TestBackend::new(60, 30)).unwrap();
+        terminal.draw(|frame| draw(frame, frame.area(), state)).unwrap();
+        let buffer = terminal.backend().buffer();
+        let inside = (1..29).flat_map(|row| (1..59).map(move |column| (column, row)));
+        let marked: Vec<u16> = inside
+            .filter(|place| buffer[*place].symbol() != " " && buffer[*place].fg == colour)
+            .map(|(column, _)| column)
+            .collect();
+        (marked.len(), [marked.iter().min(), marked.iter().max()].map(|column| column.copied().unwrap_or(0)))
+    }
+
+    fn shown(projection: Projection) -> State {
+        let mut state = State::new(String::new());
+        state.projection = Some(projection);
+        state
+    }
+
+    /// The edge is gray, and the equator darker, where it is not the edge itself.
+    #[test]
+    fn a_sphere_has_its_edge_and_its_equator() {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let sphere = |rim| shown(Projection::sphere(Vector3::zeros(), Vector3::z(), rim, &axes));
+        for (rim, has_equator) in
+            [(None, true), (Some(2.0), true), (Some(PI / 2.0), false), (Some(1.0), false)]
+        {
+            let state = sphere(rim);
+            let (edge, [left, right]) = marks(&state, Color::Gray);
+            assert!(edge > 40 && right - left > 45, "{rim:?}: {edge} from {left} to {right}");
+            let (equator, [from, to]) = marks(&state, Color::DarkGray);
+            assert_eq!(equator > 30, has_equator, "{rim:?}: {equator}");
+            assert!(if has_equator { from > left && to < right } else { equator == 0 }, "{rim:?}");
+        }
+    }
+
+    #[test]
+    fn other_maps_have_their_frame_and_their_trail() {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let zero = Vector3::zeros();
+        let mut plane = shown(Projection::plane(zero, Vector3::z(), &axes));
+        // A cross through the middle, and what was touched.
+        assert!(marks(&plane, Color::DarkGray).0 > 60 && marks(&plane, Color::Blue).0 == 0);
+        plane.trail.extend([(-5.0, 5.0), (5.0, -5.0)]);
+        let (dots, [left, right]) = marks(&plane, Color::Blue);
+        assert!(dots == 2 && left < 29 && right > 30, "{dots} {left} {right}");
+        let tube = |half| shown(Projection::cylinder(zero, Vector3::y(), 0.004, half, &axes));
+        let (frame, [left, right]) = marks(&tube(Some(0.007)), Color::Gray);
+        assert!(frame > 100 && right - left > 50, "{frame} from {left} to {right}");
+        assert!(marks(&tube(None), Color::Gray).0 > 100);
+        // Where there is no room nothing is drawn.
+        for (height, drawn) in [(LEAST_HEIGHT, true), (LEAST_HEIGHT - 1, false)] {
+            let mut terminal = Terminal::new(TestBackend::new(60, height)).unwrap();
+            terminal.draw(|frame| draw(frame, frame.area(), &plane)).unwrap();
+            let empty = terminal.backend().buffer().content().iter().all(|cell| cell.symbol() == " ");
+            assert_eq!(!empty, drawn, "{height}");
+        }
     }
 }

@@ -456,6 +456,30 @@ mod tests {
         assert_eq!((state.faults, state.last_fault.as_deref(), state.losses.lost), (2, Some("two"), Some(3)));
     }
 
+    /// A scene that asks how noisy the sensor is learns it of the rest: a push above so many deviations is a contact.
+    #[test]
+    fn the_noise_of_a_rest_is_what_a_scene_asks_for() {
+        let scene = "version = 2\n[input]\nconvention = \"on_fingertip\"\nrest_s = 1.0\n[surface]\n\
+                     shape = \"plane\"\n[contact]\nleast_force_deviations = 5.0\n";
+        let scene = Scene::from_text(scene).unwrap();
+        // At rest ± 0.01 N in turn, then pushes of 0.2 N.
+        let samples = || {
+            let force = |k: u32| if k >= 20 { -0.2 } else { 0.01 * (1.0 - 2.0 * f64::from(k % 2)) };
+            let wrench = |k: u32| Wrench::on_fingertip(Vector3::new(0.0, 0.0, force(k)), Vector3::zeros());
+            let reading =
+                |k: u32| Reading { time: Some(0.05 * f64::from(k)), wrench: wrench(k), volts: None };
+            (0..22).map(|k| Next::Reading(reading(k))).collect::<Vec<_>>()
+        };
+        let status = |rest: Option<f64>| {
+            let (_, given, _) = seen(samples(), rest, usize::MAX, Some(SceneFeel::new(&scene, true)));
+            (given.len(), given.last().unwrap().felt.unwrap().status)
+        };
+        assert_eq!(status(Some(1.0)), (2, "contact"));
+        // As long as nothing was at rest, nothing is known.
+        let (samples, unknown) = status(None);
+        assert!(samples == 22 && unknown != "contact", "{samples} {unknown}");
+    }
+
     #[test]
     fn a_scene_makes_a_touch_of_a_sample() {
         let scene = crate::scene::load_or_simulated(Path::new("sim")).unwrap();
