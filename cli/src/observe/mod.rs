@@ -211,3 +211,73 @@ impl Observations {
         &self.projection
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip::contact::{NoContact, Resolution};
+    use fingertip::friction::SlipMargin;
+    use fingertip::wrench::Wrench;
+    use nalgebra::Vector3;
+
+    use super::{Observations, Projection, SceneTouch, Status};
+
+    fn observations(is_drawn: bool) -> Observations {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        Observations::of(Projection::plane(Vector3::zeros(), Vector3::z(), &axes), is_drawn)
+    }
+
+    /// A sample without a contact, with so much left of friction \[N\].
+    fn touch(left: Option<f64>) -> SceneTouch {
+        SceneTouch {
+            wrench: Wrench::on_fingertip(Vector3::new(0.0, 3.0, 4.0), Vector3::new(0.1, 0.2, 0.3)),
+            resolution: Resolution::NoContact(NoContact::Misses { closest: None }),
+            force: None,
+            grip: Some(left.map(|newtons| SlipMargin { newtons, utilisation: 1.0 })),
+            slip: None,
+            tracked: (),
+        }
+    }
+
+    #[test]
+    fn what_is_at_the_limit_of_friction_is_not_beyond_it() {
+        let mut observations = observations(false);
+        for left in [Some(0.0), Some(0.5), None] {
+            observations.add(0.0, &touch(left));
+        }
+        assert_eq!(observations.beyond_limit, 0);
+        observations.add(0.0, &touch(Some(-1e-9)));
+        assert_eq!(observations.beyond_limit, 1);
+    }
+
+    #[test]
+    fn a_time_that_goes_back_is_not_the_last_one() {
+        let mut observations = observations(false);
+        assert_eq!((observations.duration(), observations.time_range()), (0.0, (0.0, 0.0)));
+        for time in [f64::NAN, 2.0, 5.0, 4.0] {
+            observations.add_without_wrench(time, Status::Rest);
+        }
+        assert_eq!((observations.duration(), observations.time_range()), (3.0, (2.0, 5.0)));
+        assert_eq!((observations.rows(), observations.count_of(Status::Rest)), (4, 4));
+    }
+
+    /// Curves break where there is no wrench, and are kept only where they are drawn.
+    #[test]
+    fn curves_are_kept_for_a_report_only() {
+        for is_drawn in [true, false] {
+            let mut observations = observations(is_drawn);
+            observations.add(0.0, &touch(None));
+            observations.add_without_wrench(1.0, Status::UnusableRow);
+            observations.add(2.0, &touch(None));
+            let [forces, torques] = [observations.forces(), observations.torques()];
+            for (curve, value) in forces.iter().chain(&torques).zip([0.0, 3.0, 4.0, 0.1, 0.2, 0.3]) {
+                let points: Vec<Vec<(f64, f64)>> = curve
+                    .iter()
+                    .map(|piece| piece.iter().map(|point| (point.time, point.value)).collect())
+                    .collect();
+                let expected = if is_drawn { vec![vec![(0.0, value)], vec![(2.0, value)]] } else { vec![] };
+                assert_eq!(points, expected);
+            }
+            assert_eq!(observations.force.count(), 2);
+        }
+    }
+}
