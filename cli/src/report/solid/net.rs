@@ -223,3 +223,50 @@ impl Net {
         facets(&self.points, COLUMNS).count() < ROWS * COLUMNS
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fingertip::surfaces::{DynSurface, Sphere, SphericalCap};
+    use nalgebra::Vector3;
+
+    use super::{Ball, COLUMNS, PI, ROWS, Rays, TAU};
+
+    /// A cap beside the poles of a net, wherever its columns begin: its rim is met on the way to the cell beside it.
+    #[test]
+    fn the_rim_is_met_beside_the_cell_that_it_crosses() {
+        let half_angle = 23_f64.to_radians();
+        let zero = Vector3::zeros();
+        for degrees in (0..360).step_by(7) {
+            let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+            let pole = Vector3::new(cos, sin, 0.1).normalize();
+            let ball = Sphere::new(zero, 0.01).unwrap();
+            let surface = DynSurface::Sphere(SphericalCap::new(ball, pole, half_angle.cos()).unwrap());
+            let shown = Ball { centre: zero, radius: 0.02 };
+            let frame = [Vector3::x(), Vector3::y(), Vector3::z()];
+            let rays = Rays { surface: &surface, shown, centre: zero, frame };
+            let (mut rim, mut inner) = (0, 0);
+            for (place, point) in rays.net(ROWS, COLUMNS).into_iter().enumerate() {
+                let Some(point) = point else { continue };
+                let (row, column) = ((place / COLUMNS) as f64, (place % COLUMNS) as f64);
+                let away = (ROWS as f64 * point.angle(&Vector3::z()) / PI - row).abs();
+                let turned = COLUMNS as f64 * point.y.atan2(point.x) / TAU - column;
+                let aside = (turned - COLUMNS as f64 * (turned / COLUMNS as f64).round()).abs();
+                assert!(
+                    away < 1.0 && aside < 1.0 && away.min(aside) < 1e-6,
+                    "{degrees}: {row} {column} {point:?}"
+                );
+                if away.max(aside) > 1e-6 {
+                    assert!(
+                        (point.angle(&pole) - half_angle).abs() < 1e-4,
+                        "{degrees}: {row} {column} {point:?}"
+                    );
+                    rim += 1;
+                } else {
+                    inner += 1;
+                }
+            }
+            // The cap is 4.6 rows and columns wide.
+            assert!((12..=18).contains(&inner) && (12..=20).contains(&rim), "{degrees}: {inner} {rim}");
+        }
+    }
+}

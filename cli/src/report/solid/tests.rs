@@ -3,6 +3,7 @@
 use fingertip::surfaces::{ActiveSurface, SmoothSurface, nearest_crossing};
 use fingertip::wrench::Line;
 use fingertip_scene::{Scene, registry};
+use fingertip_test_support::read_back::{Path, paths};
 use nalgebra::Vector3;
 
 use super::net::{COLUMNS, Net, ROWS, across, facets};
@@ -155,4 +156,51 @@ fn what_is_smaller_than_numbers_is_not_drawn() {
         Solid::of(scene.surface(), scene.projection(), &[]).is_some()
     };
     assert!(is_drawn("1e-150") && !is_drawn("1e-165") && !is_drawn("1e-300"));
+}
+
+/// What is drawn of a ball whose active part reaches so far from its pole \[°\]: its facets, in two heaps by the side
+/// that they turn to the viewer, and how many dots. Of fifty contacts halfway down to the equator ten are behind.
+fn picture(reach: Option<f64>) -> ([Vec<Path>; 2], usize) {
+    let rim = reach.map_or_else(String::new, |reach| format!("active_half_angle_deg = {reach:?}\n"));
+    let scene =
+        scene(&format!("[surface]\nshape = \"sphere\"\nradius_m = 0.013\npole = [0.0, 0.0, 1.0]\n{rim}"));
+    let contacts: Vec<MapPoint> = (0..50)
+        .map(|i| {
+            // Most of them on one side, from which they are seen.
+            let turn = if i < 40 { 0.3 + 0.02 * f64::from(i) } else { 3.5 + 0.02 * f64::from(i) };
+            contact(&scene, Vector3::new(turn.cos(), turn.sin(), 1.0) * 0.0092, f64::from(i + 1))
+        })
+        .collect();
+    let solid = Solid::of(scene.surface(), scene.projection(), &contacts).unwrap();
+    assert_eq!(solid.is_open, reach.is_some());
+    // Facets are closed.
+    let all = paths(&super::picture::draw(&solid).replace("Z\"", "\""));
+    let dots =
+        all.iter().filter(|path| path.class.starts_with("dots")).map(|path| path.pieces.concat().len());
+    let dots = dots.sum();
+    let facets = all.into_iter().filter(|path| path.class.len() == 2 && path.class.starts_with('s'));
+    // By Gauss's area formula, with y downwards: their corners run against the clock, seen from outside.
+    let faces = |facet: &Path| {
+        let corners = &facet.pieces[0];
+        let next = corners.iter().cycle().skip(1);
+        let area: f64 = corners.iter().zip(next).map(|((a, b), (c, d))| a * d - b * c).sum();
+        area < 0.0
+    };
+    let (front, back) = facets.partition(faces);
+    ([front, back], dots)
+}
+
+#[test]
+fn what_a_closed_surface_hides_is_not_drawn() {
+    let lightest = |facets: &[Path]| facets.iter().map(|facet| facet.class.clone()).max().unwrap_or_default();
+    let ([front, back], dots) = picture(None);
+    let half = ROWS * COLUMNS / 4;
+    // At the edge rounding may turn a facet that is hardly seen.
+    assert!(front.len() + 20 > half && back.len() < 5, "{} and {} of {half}", front.len(), back.len());
+    assert_eq!((dots, lightest(&front)), (40, "s7".to_owned()));
+    // Of an open one all is drawn, and the inside is dark.
+    let ([front, back], dots) = picture(Some(100.0));
+    assert!(front.len() > 100 && back.len() > 20, "{} and {}", front.len(), back.len());
+    let dark = lightest(&back);
+    assert!(dots == 50 && lightest(&front) == "s7" && ("s0".."s3").contains(&dark.as_str()), "{dots} {dark}");
 }
