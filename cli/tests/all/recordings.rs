@@ -397,6 +397,11 @@ fn shells_and_readers_are_helped() {
     let page = folder.read("pages/fingertip-analyze.1");
     assert!(page.starts_with(".ie") || page.contains(".TH"), "{page}");
     assert!(page.contains("contacts") && folder.path("pages/fingertip-scene-init.1").exists());
+    // With the options of every command, and called as it is.
+    let page = folder.read("pages/fingertip-scene.1");
+    for expected in ["\\fB\\-q\\fR, \\fB\\-\\-quiet\\fR\n", "\n\\fBfingertip scene\\fR "] {
+        assert!(page.contains(expected), "{expected} is not in {page}");
+    }
 }
 
 /// What has no end, or more of something than is meant, is refused with the limit, not held in memory.
