@@ -3,7 +3,7 @@
 use fingertip::surfaces::{ActiveSurface, SmoothSurface, nearest_crossing};
 use fingertip::wrench::Line;
 use fingertip_scene::{Scene, registry};
-use fingertip_test_support::read_back::{Path, paths};
+use fingertip_test_support::read_back::{Path, paths, texts};
 use nalgebra::Vector3;
 
 use super::net::{COLUMNS, Net, ROWS, across, facets};
@@ -203,4 +203,58 @@ fn what_a_closed_surface_hides_is_not_drawn() {
     assert!(front.len() > 100 && back.len() > 20, "{} and {}", front.len(), back.len());
     let dark = lightest(&back);
     assert!(dots == 50 && lightest(&front) == "s7" && ("s0".."s3").contains(&dark.as_str()), "{dots} {dark}");
+}
+
+/// Seen from (1, 1, 1): z is up, x to the left and y to the right, both downwards.
+#[test]
+fn the_picture_is_isometric_and_lit_from_the_left_above() {
+    let scene = scene("[surface]\nshape = \"sphere\"\nradius_m = 0.013\npole = [0.0, 0.0, 1.0]\n");
+    let drawn = |count: u32| {
+        let point = |i: u32| {
+            let (sin, cos) = (0.01 * f64::from(i)).sin_cos();
+            Vector3::new(0.006 + 0.001 * cos, 0.006 + 0.001 * sin, 0.006)
+        };
+        let contacts: Vec<MapPoint> = (0..count).map(|i| contact(&scene, point(i), 1.0)).collect();
+        super::picture::draw(&Solid::of(scene.surface(), scene.projection(), &contacts).unwrap())
+    };
+    let svg = drawn(1).replace("Z\"", "\"");
+    let all = paths(&svg);
+    let middle = (170.0, 150.0);
+    for (axis, name, (right, up)) in
+        [("a", "x", (-1.0, -1.0)), ("b", "y", (1.0, -1.0)), ("c", "z", (0.0, 1.0))]
+    {
+        let class = format!("curve wide {axis}");
+        let pieces: Vec<_> =
+            all.iter().filter(|path| path.class == class).map(|path| &path.pieces[0]).collect();
+        // The ends of the pieces are those of twelve parts of one line from the middle of the ball.
+        let mut far: Vec<f64> =
+            pieces.iter().flat_map(|piece| piece.iter()).map(|(x, y)| (x - 170.0).hypot(y - 150.0)).collect();
+        far.sort_by(f64::total_cmp);
+        let whole = far[23];
+        assert!(pieces.len() == 12 && whole > 80.0, "{name}: {whole}");
+        for (k, far) in far.iter().enumerate() {
+            let expected = whole * k.div_ceil(2) as f64 / 12.0;
+            assert!((far - expected).abs() < 0.2, "{name}: {far} for {expected}");
+        }
+        // Its name is just behind its tip; the baseline is 4 lower than its middle.
+        let label = texts(&svg).into_iter().find(|text| text.text == name).unwrap().at;
+        let (x, y) = (label.0 - middle.0, middle.1 - (label.1 - 4.0));
+        assert!((x.hypot(y) - 1.06 * whole).abs() < 0.3, "{name}: {x} {y}");
+        let slant = 30_f64.to_radians();
+        let (across, height) = if right == 0.0 { (0.0, 1.0) } else { (slant.cos(), slant.sin()) };
+        assert!((x / x.hypot(y) - right * across).abs() < 0.01, "{name}: {x} {y}");
+        assert!((y / x.hypot(y) - up * height).abs() < 0.01, "{name}: {x} {y}");
+    }
+    // Where facets of a shade are, on the average.
+    let place = |shade: &str| {
+        let corners = all.iter().filter(|path| path.class == shade).flat_map(|path| path.pieces.concat());
+        let corners: Vec<_> = corners.collect();
+        let sum = corners.iter().fold((0.0, 0.0), |sum, corner| (sum.0 + corner.0, sum.1 + corner.1));
+        (sum.0 / corners.len() as f64 - middle.0, middle.1 - sum.1 / corners.len() as f64)
+    };
+    let (light, dark) = (place("s7"), place("s2"));
+    assert!(light.0 < -10.0 && light.1 > 10.0 && dark.0 > 5.0 && dark.1 < -5.0, "{light:?} {dark:?}");
+    // As many dots as can be told apart, at most.
+    let dots = |count: u32| drawn(count).matches("h0").count();
+    assert_eq!((dots(400), dots(401), dots(700)), (400, 201, 350));
 }
