@@ -212,19 +212,100 @@ fn instant_table(observations: &Observations) -> Table {
 
 #[cfg(test)]
 mod tests {
+    use fingertip::friction::SlipVerdict;
+    use fingertip_scene::{Projection, Scene};
     use nalgebra::Vector3;
 
-    use super::distributions;
-    use crate::observe::Observations;
-    use fingertip_scene::Projection;
+    use super::{Findings, LISTED_SLIPS, Table, distributions, outcomes, overview, slip_table, slips};
+    use crate::observe::{Observations, Status};
+
+    const PLANE: &str = "version = 2\n[input]\nconvention = \"on_fingertip\"\n[surface]\nshape = \"plane\"\n";
+
+    fn observations() -> Observations {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        Observations::new(Projection::plane(Vector3::zeros(), Vector3::z(), &axes))
+    }
 
     #[test]
     fn what_was_not_seen_has_no_distribution() {
-        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let mut observations = Observations::new(Projection::plane(Vector3::zeros(), Vector3::z(), &axes));
+        let mut observations = observations();
         assert!(distributions(&observations).rows.is_empty());
         observations.gap.add(0.002);
         let rows = distributions(&observations).rows;
         assert_eq!(rows, [["line misses by / mm", "2.00", "2.00", "2.00", "2.00"]]);
+    }
+
+    /// Shares are of all samples, and of those that could have been contacts.
+    #[test]
+    fn what_could_be_no_contact_is_left_out_of_a_share() {
+        let mut observations = observations();
+        let samples = [
+            (Status::Contact, 3),
+            (Status::OnlyPulling, 1),
+            (Status::BelowThreshold, 2),
+            (Status::Rest, 5),
+            (Status::UnusableRow, 4),
+        ];
+        for (k, status) in samples.iter().flat_map(|(status, count)| vec![*status; *count]).enumerate() {
+            observations.add_without_wrench(0.5 * k as f64, status);
+        }
+        assert_eq!(
+            overview(&observations, "a"),
+            "15 samples over 7.00 s, scene “a”: 3 contacts, which is 20.00 % of all samples and 75.00 % of those with enough force."
+        );
+        // A row for each that there was, in the order of all.
+        let found: Vec<[String; 2]> =
+            outcomes(&observations).rows.iter().map(|row| [row[0].clone(), row[1].clone()]).collect();
+        let seen = |status: &Status| samples.iter().find(|(other, _)| other == status);
+        let expected: Vec<[String; 2]> = Status::ALL
+            .iter()
+            .filter_map(seen)
+            .map(|(status, count)| [status.meaning().to_owned(), count.to_string()])
+            .collect();
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn slips_are_counted_where_they_are_watched_for_and_the_first_are_listed() {
+        let watching = format!("{PLANE}[slip]\ndetector = \"drop\"\nnoise_N = 0.01\n");
+        let [plane, watching] = [PLANE, &watching].map(|text| Scene::from_text(text).unwrap());
+        let mut observations = observations();
+        assert_eq!(
+            (slips(&observations, &plane).as_str(), slips(&observations, &watching).as_str()),
+            ("", "No slip was seen.")
+        );
+        for slip in 1..=LISTED_SLIPS + 1 {
+            let verdict = Some(SlipVerdict::Slipping);
+            observations.slips.follow(slip as f64, verdict, Some(2.0), None);
+            let table = slip_table(&observations);
+            let title = if slip > LISTED_SLIPS { "Slips (the first 20)" } else { "Slips" };
+            assert_eq!((table.title.as_str(), table.rows.len()), (title, slip.min(LISTED_SLIPS)));
+            let last = slip.min(LISTED_SLIPS);
+            assert_eq!(table.rows[last - 1], [&last.to_string(), &format!("{last}.000"), "2.00", "–"]);
+            let said =
+                if slip == 1 { "One slip was seen.".to_owned() } else { format!("{slip} slips were seen.") };
+            assert_eq!(slips(&observations, &watching), said);
+        }
+        // A limit needs no watch, and one that is not passed is not named.
+        let limit = "[friction]\nstatic_coefficient = 0.5\n";
+        let limited = Scene::from_text(&format!("{PLANE}{limit}")).unwrap();
+        assert_eq!(slips(&observations, &limited), "");
+        observations.beyond_limit = 3;
+        assert_eq!(
+            slips(&observations, &limited),
+            "The limit of the friction coefficient 0.5 is passed in 3 samples."
+        );
+    }
+
+    #[test]
+    fn findings_are_sentences_tables_and_notes() {
+        let mut table = Table::new("Rows", ["a", "b"]);
+        table.row(["1".to_owned(), "2".to_owned()]);
+        let tables = table.to_string();
+        let [lead, notes] = [vec!["One.".to_owned()], vec!["mind it".to_owned(), "and that".to_owned()]];
+        let findings = Findings { title: "T".to_owned(), lead, tables: vec![table], notes };
+        assert_eq!(findings.to_string(), format!("T\nOne.\n\n{tables}\nNote: mind it.\nNote: and that.\n"));
+        let title = Findings { title: "T".to_owned(), ..Findings::default() };
+        assert_eq!(title.to_string(), "T\n");
     }
 }
