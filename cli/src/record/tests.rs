@@ -9,7 +9,7 @@ use fingertip_bridges::About;
 use indicatif::ProgressBar;
 use nalgebra::{Vector3, Vector6};
 
-use super::{NEWS, Reading, RecordArguments, Recording, Stream, StreamOptions};
+use super::{Event, NEWS, Reading, RecordArguments, Recording, Stream, StreamOptions};
 use crate::args::{Arguments, Command};
 use crate::felt::SceneFeel;
 use crate::output::Outputs;
@@ -165,4 +165,55 @@ fn the_line_of_news_says_how_far_it_is() {
     assert!(recording.told > before + NEWS, "the next is due at once");
     recording.finish(&over()).unwrap();
     assert_eq!(written(&arguments).len(), 1);
+}
+
+/// A sensor that sends no times, and goes after each sample.
+struct Once(bool);
+
+impl Feed for Once {
+    fn next(&mut self) -> Result<Next, SensorError> {
+        let first = core::mem::replace(&mut self.0, false);
+        Ok(if first { Next::Reading(reading(1.0)) } else { Next::End })
+    }
+    fn losses(&self) -> Losses {
+        Losses::default()
+    }
+}
+
+#[test]
+fn what_became_of_the_connection_is_said() {
+    let arguments = arguments("connection", &[]);
+    let outputs = outputs(&arguments);
+    let options = StreamOptions { silence: Duration::from_secs(9), reconnect: true };
+    let mut stream = Stream::new(Box::new(|| Ok(Box::new(Once(true)) as Box<dyn Feed>)), options).unwrap();
+    let mut recording = Recording::new(&arguments, &outputs, About::default());
+    while recording.samples < 3 {
+        if let Event::Sample(time, reading) = stream.next().unwrap() {
+            recording.take(time, &reading, None).unwrap();
+        }
+    }
+    let summary = recording.finish(&stream).unwrap().unwrap();
+    let expected =
+        "\nConnected anew 2 times\nTimes are those of arrival at this computer: the sensor sends none\n";
+    assert!(summary.contains(expected), "{summary}");
+    assert_eq!(written(&arguments).len(), 3);
+}
+
+/// Why it ended stands alone, unless something was recorded.
+#[test]
+fn an_end_says_how_far_the_recording_is() {
+    let arguments = arguments("end", &[]);
+    let outputs = outputs(&arguments);
+    let mut recording = Recording::new(&arguments, &outputs, About::default());
+    assert!(matches!(recording.ended(SensorError::Closed), SensorError::Closed));
+    for time in [1.0, 3.5] {
+        recording.take(time, &reading(1.0), None).unwrap();
+    }
+    let said = recording.ended(SensorError::Closed).to_string();
+    assert_eq!(
+        said,
+        "the line was closed 2.5 s after the first sample, behind 2 samples, which are recorded"
+    );
+    recording.finish(&over()).unwrap();
+    assert_eq!(written(&arguments).len(), 2);
 }
