@@ -1,5 +1,7 @@
 //! `fingertip analyze`, row by row: clocks, rests, and what is told of many slips and contacts.
 
+use fingertip_test_support::read_back::{texts, value};
+
 use crate::common::{Contacts, Folder};
 
 const WRENCH: &str = "fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm";
@@ -178,10 +180,13 @@ fn a_ratio_without_bound_is_cut_where_it_hides_the_others() {
         }
         rows
     };
-    let caption = |scene: &str, greatest: f64| {
+    let figure = |scene: &str, greatest: f64| {
         let (folder, _) = analyze(scene, &rows(greatest), &[]);
         let report = folder.read("report.html");
-        let figure = report.split("<figure>").find(|figure| figure.contains("Friction ratio</h2>")).unwrap();
+        report.split("<figure>").find(|figure| figure.contains("Friction ratio</h2>")).unwrap().to_owned()
+    };
+    let caption = |scene: &str, greatest: f64| {
+        let figure = figure(scene, greatest);
         figure.split("<figcaption>").nth(1).unwrap().split("</figcaption>").next().unwrap().to_owned()
     };
     // 1.6 times what 99 in 100 have is 0.48, rounded outward to 0.5.
@@ -197,6 +202,12 @@ fn a_ratio_without_bound_is_cut_where_it_hides_the_others() {
         caption(&scene, 40.0),
         "Only where there is a contact. Cut at 1.50; the greatest ratio is 40.0."
     );
+    // And has room above it where no ratio comes near.
+    let drawn = figure(&scene, 0.3);
+    let svg = drawn.split("</svg>").next().unwrap();
+    let ticks = texts(svg).into_iter().filter(|text| text.class == "tick" && text.anchor == "end");
+    let highest = ticks.filter_map(|text| value(&text.text)).fold(0.0, f64::max);
+    assert!((1.0..=1.5).contains(&highest), "{highest}");
     let scene = scene.replace("0.9", "0.4");
     assert_eq!(
         caption(&scene, 40.0),
