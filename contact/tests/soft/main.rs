@@ -3,6 +3,7 @@
 // Helpers of tests are tests too.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod active;
 #[path = "../oracle/big.rs"]
 #[allow(dead_code, reason = "another test uses the rest")]
 mod big;

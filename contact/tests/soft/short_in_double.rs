@@ -64,7 +64,7 @@ where
 }
 
 /// From x to y, y to z and z to x, which no type rounds.
-fn pose<T: Real>() -> RigidTransform<T> {
+pub(crate) fn pose<T: Real>() -> RigidTransform<T> {
     let (zero, one) = (T::zero(), T::one());
     let turned = Matrix3::new(zero, zero, one, one, zero, zero, zero, one, zero);
     let origin = Vector3::new(0.0625, -0.03125, 0.125).map(T::literal);

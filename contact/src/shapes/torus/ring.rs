@@ -313,3 +313,34 @@ fn unit<T: Real>([c, s]: [T; 2]) -> [T; 2] {
     let share = (T::literal(3.0) - (c * c + s * s)) * T::literal(0.5);
     [c * share, s * share]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of `|N_s| + |N_c| + |Δ| = 12`, which change by 6 times 2 times the width, rounding makes as many times twice their
+    /// greatest coefficient.
+    #[test]
+    fn an_interval_is_clear_above_what_rounding_makes() {
+        let level = |value: f64| [value, 0.0, 0.0, 0.0, 0.0];
+        let nothing = Vector3::zeros();
+        let ring = Ring {
+            force: nothing,
+            torque: nothing,
+            radius: 1.0,
+            tube: 0.5,
+            sine: level(3.0),
+            cosine: level(-4.0),
+            common: level(-5.0),
+            bend: 0.0,
+        };
+        let made = (12.0 + 6.0 * 2.0 * 0.1) * 2.0 * 16.0 * f64::EPSILON;
+        for (least, clear) in [(1.001 * made, true), (0.999 * made, false)] {
+            assert_eq!(
+                ring.is_clear(least, [0.6, 0.8], 0.1, [1.0, 2.0, 0.5], f64::EPSILON),
+                clear,
+                "{least}"
+            );
+        }
+    }
+}

@@ -147,6 +147,8 @@ fn sightings_that_cannot_be_are_none() {
     let of = |point, normal, covariance| Sighting::new(point, normal, frame, covariance);
     let (o, z) = (Vector3::zeros(), Vector3::z());
     assert!(of(o, z, unit).is_some());
+    // A normal that is not quite a unit vector is made one.
+    assert!((of(o, z * 1.005, unit).unwrap().normal() - z).amax() < 1e-15);
     assert!(of(Vector3::repeat(f64::NAN), z, unit).is_none());
     assert!(of(o, z * 1.1, unit).is_none());
     assert!(of(o, o, unit).is_none());
