@@ -62,6 +62,34 @@ fn sampled<S: ImplicitSurface<f64>>(surface: &S, below: f64) -> f64 {
     steepest
 }
 
+/// All below a height, in a ball about a place far from the origin.
+struct Ground;
+
+impl ImplicitSurface<f64> for Ground {
+    fn formula(&self, [_, _, z]: [Term<f64>; 3]) -> Term<f64> {
+        z - 3.0
+    }
+
+    fn ball(&self) -> (Vector3<f64>, f64) {
+        (Vector3::new(10.0, 20.0, 3.0), 1.0)
+    }
+}
+
+#[test]
+fn what_is_inside_is_in_the_ball_and_below() {
+    let ground = Implicit::new(Ground).unwrap();
+    for (place, is_inside) in [
+        ([10.0, 20.0, 2.5], true),
+        ([10.0, 20.0, 3.5], false),
+        ([10.0, 20.9, 2.9], true),
+        ([10.0, 21.1, 2.9], false),
+        ([-10.0, -20.0, -3.0], false),
+        ([0.0, 0.0, 0.0], false),
+    ] {
+        assert_eq!(ground.contains(&Vector3::from(place)), is_inside, "{place:?}");
+    }
+}
+
 /// No sample is steeper than what is stated, nor is it stated steeper than `excess` times.
 fn check<F: Fn([Term<f64>; 3]) -> Term<f64>>(formula: F, radius: f64, excess: f64) {
     let surface = Implicit::new(written(formula, radius)).unwrap();

@@ -251,3 +251,16 @@ fn a_level_of_any_scale() {
         assert_eq!(level.shape_operator(), Matrix3::zeros());
     }
 }
+
+/// In the middle of the tube any side is as near; next to it the nearest is told, as close as a number can be.
+#[test]
+fn the_middle_of_a_tube_has_a_normal() {
+    let torus: Torus<f64> = Torus::new(1.0, 0.25).unwrap();
+    for place in [Vector3::x(), -Vector3::y(), Vector3::zeros()] {
+        assert!((torus.normal(&place).norm() - 1.0).abs() < 1e-15, "{place:?}");
+    }
+    for off in [1e-3, 1e-10, 1e-17, 1e-200, f64::MIN_POSITIVE] {
+        let normal = torus.normal(&Vector3::new(1.0, 0.0, off));
+        assert!((normal - Vector3::z()).amax() < 1e-12, "{off}: {normal:?}");
+    }
+}
