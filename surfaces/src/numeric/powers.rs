@@ -119,5 +119,10 @@ mod tests {
         assert!(Double::new(f64::MIN_POSITIVE * 1e-10).power(Double::new(0.5)).value() > 0.0);
         assert!(!(Double::new(f64::NAN).power(p).value() > 0.0));
         assert_eq!(Double::new(-1.0).power(p).value(), 0.0);
+        // Beyond a thousand powers of two.
+        for x in [1001.0 * core::f64::consts::LN_2, 1e5, 1e300] {
+            assert_eq!(Double::new(-x).exponential().value(), 0.0, "{x}");
+            assert_eq!(Double::new(x).exponential().value(), f64::INFINITY, "{x}");
+        }
     }
 }
