@@ -29,8 +29,8 @@ pub struct Doubt {
 impl fmt::Display for Doubt {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Three digits.
-        let places = (2.0 - self.force_range.log10().floor()).clamp(0.0, 9.0) as usize;
         let range = self.force_range;
+        let places = if range > 0.0 { (2.0 - range.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
         write!(out, "{}, and the force ranged over {range:.places$} N, so far the tare may be off", self.seen)
     }
 }
@@ -223,7 +223,9 @@ mod tests {
             .iter()
             .for_each(|force| assert!(watch.add(&Vector6::zeros(), &Vector6::zeros(), &wrench(*force))));
         assert!(!watch.add(&Vector6::zeros(), &Vector6::repeat(f64::NAN), &wrench(1.0)));
-        assert_eq!(watch.doubt(|channel| channel.to_string()).unwrap().force_range, 0.0);
+        let doubt = watch.doubt(|channel| channel.to_string()).unwrap();
+        assert_eq!(doubt.force_range, 0.0);
+        assert!(doubt.to_string().contains("the force ranged over 0 N"), "{doubt}");
     }
 
     /// Against the mean and the sum of squares, one after the other.

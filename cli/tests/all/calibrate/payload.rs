@@ -133,6 +133,25 @@ fn frames_that_fit_better_are_named() {
     );
 }
 
+/// Readings under known loads of a sensor that also carries the body of the poses, in changing orientations.
+fn turned(loads: impl IntoIterator<Item = [f64; 6]>) -> String {
+    let mut text =
+        String::from("fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,qx,qy,qz,qw\n");
+    for (i, known) in loads.into_iter().enumerate() {
+        let turn = turn(i);
+        let pull = turn.inverse() * Vector3::new(0.0, 0.0, -0.3 * 9.80665);
+        let torque = Vector3::new(0.002, 0.001, 0.03).cross(&pull);
+        let carried = [pull.x, pull.y, pull.z, torque.x, torque.y, torque.z];
+        let share = |j: usize| (known[j] + carried[j]) / if j < 3 { 10.0 } else { 0.1 };
+        let volts: Vec<String> =
+            (0..6).map(|j| (0.1 + 2.0 * share(j) + 0.2 * share((j + 1) % 6)).to_string()).collect();
+        let q = nalgebra::UnitQuaternion::from_rotation_matrix(&turn);
+        let known = known.map(|x| x.to_string()).join(",");
+        text += &format!("{known},{},{},{},{},{}\n", volts.join(","), q.i, q.j, q.k, q.w);
+    }
+    text
+}
+
 /// Known loads on a sensor that also carries a body, in changing orientations.
 #[test]
 fn check_adds_the_weight_to_the_loads() {
@@ -141,27 +160,33 @@ fn check_adds_the_weight_to_the_loads() {
     folder.succeed(&["calibrate", "--gravity", "poses.csv"]);
     folder.write("bare.csv", &super::loads(1.0));
     folder.succeed(&["calibrate", "bare.csv", "--full-scale", "10,10,10,0.1,0.1,0.1", "-o", "cal.toml"]);
-    let mut text =
-        String::from("fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,qx,qy,qz,qw\n");
-    for i in 0..12 {
-        let turn = turn(i);
-        let pull = turn.inverse() * Vector3::new(0.0, 0.0, -0.3 * 9.80665);
-        let torque = Vector3::new(0.002, 0.001, 0.03).cross(&pull);
-        let known = if i % 2 == 0 { 5.0 } else { 0.0 };
-        let mut share = [0.0; 6];
-        for j in 0..3 {
-            share[j] = (pull[j] + if j == 2 { known } else { 0.0 }) / 10.0;
-            share[3 + j] = torque[j] / 0.1;
-        }
-        let volts: Vec<String> =
-            (0..6).map(|j| (0.1 + 2.0 * share[j] + 0.2 * share[(j + 1) % 6]).to_string()).collect();
-        let q = nalgebra::UnitQuaternion::from_rotation_matrix(&turn);
-        text += &format!("0,0,{known},0,0,0,{},{},{},{},{}\n", volts.join(","), q.i, q.j, q.k, q.w);
-    }
-    folder.write("turned.csv", &text);
+    let loads = (0..12).map(|i| [0.0, 0.0, if i % 2 == 0 { 5.0 } else { 0.0 }, 0.0, 0.0, 0.0]);
+    folder.write("turned.csv", &turned(loads));
     folder.fail(1, &["check", "cal.toml", "turned.csv"]);
     let said = folder.succeed(&["check", "cal.toml", "turned.csv", "--payload", "payload.toml"]);
     assert!(said.contains("GOOD") && said.contains("Contact points on a sphere of 10 mm"), "{said}");
     let error = folder.fail(1, &["check", "cal.toml", "bare.csv", "--payload", "payload.toml"]);
     assert!(error.contains("qx, qy, qz, qw"), "{error}");
+}
+
+/// Each component loaded both ways, the body on the sensor all the while.
+#[test]
+fn a_calibration_adds_the_weight_to_the_loads() {
+    let folder = Folder::new();
+    folder.write("poses.csv", &poses(&Rotation3::identity()));
+    folder.succeed(&["calibrate", "--gravity", "poses.csv"]);
+    let loads = (0..36).map(|i| {
+        let mut known = [0.0; 6];
+        known[i % 6] = [5.0, -5.0, 0.0][i / 6 % 3] * if i % 6 < 3 { 1.0 } else { 0.01 };
+        known
+    });
+    folder.write("turned.csv", &turned(loads));
+    folder.write("bare.csv", &super::loads(1.0));
+    let calibrate = ["calibrate", "turned.csv", "--full-scale", "10,10,10,0.1,0.1,0.1", "-o", "cal.toml"];
+    folder.succeed(&[&calibrate[..], &["--payload", "payload.toml"]].concat());
+    let said = folder.succeed(&["check", "cal.toml", "bare.csv"]);
+    assert!(said.contains("GOOD"), "{said}");
+    // Without its weight they contradict each other.
+    folder.succeed(&[&calibrate[..], &["--overwrite"]].concat());
+    folder.fail(1, &["check", "cal.toml", "bare.csv"]);
 }
