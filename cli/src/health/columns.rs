@@ -189,3 +189,22 @@ impl WatchedRows {
         self.watch.unwrap_or_else(|| HealthWatch::new(self.channels, self.depth)).finish()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, of_wrench};
+
+    #[test]
+    fn a_wrench_is_three_forces_and_three_torques() {
+        let told: Vec<_> = of_wrench("left")
+            .into_iter()
+            .map(|channel| (channel.name, channel.unit, channel.sensor, channel.kind))
+            .collect();
+        let of =
+            |name: &str, unit: &str, kind| (format!("left {name}"), unit.to_owned(), "left".to_owned(), kind);
+        let forces = ["fx", "fy", "fz"].map(|name| of(name, "N", Kind::Force));
+        let torques = ["tx", "ty", "tz"].map(|name| of(name, "N·m", Kind::Torque));
+        assert_eq!(told, [forces, torques].concat());
+        assert_eq!(of_wrench("")[5].name, "tz");
+    }
+}

@@ -141,6 +141,28 @@ fn a_plane_is_drawn_to_scale_in_millimetres() {
     }
 }
 
+/// Around a place that was found, the outline within which it surely lies: on round maps and on flat ones.
+#[test]
+fn outlines_are_drawn_where_contacts_are() {
+    let round = Projection::sphere(Vector3::zeros(), Vector3::x(), None, &axes());
+    let flat = Projection::plane(Vector3::zeros(), Vector3::z(), &axes());
+    let on_plane = [(0.0, 0.0), (9.0, 0.0), (9.0, 7.0)].map(|(x, y)| 1e-3 * Vector3::new(x, y, 0.0));
+    for (projection, points) in
+        [(round, on_sphere(&[(10.0, 0.0), (40.0, 90.0), (70.0, 200.0)])), (flat, on_plane.to_vec())]
+    {
+        let contacts = contacts(&projection, &points);
+        let outline = contacts.iter().map(|contact| contact.place).collect();
+        let map = draw("test", &projection, &contacts, &[outline]);
+        let drawn = map.svg.split("class=\"sure\"").nth(1).and_then(|rest| rest.split('>').next()).unwrap();
+        let numbers: Vec<f64> = drawn
+            .split(|c: char| !(c.is_ascii_digit() || c == '.'))
+            .filter_map(|word| word.parse().ok())
+            .collect();
+        let corners: Vec<(f64, f64)> = numbers.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
+        assert_eq!(corners, dots(&map), "{drawn}");
+    }
+}
+
 /// Few contacts far away do not shrink the rest; how many there are is told.
 #[test]
 fn contacts_outside_the_window_are_counted() {
