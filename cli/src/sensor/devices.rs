@@ -76,6 +76,7 @@ mod tests {
             assert!(help.contains(&format!("  {example}\n      {}", device.title)), "{example}");
             assert!(!is_simulated(&address(&example).unwrap()));
         }
+        assert!(help.contains("such as bota+tcp://10.0.0.7:4000. Put an address with ? or & in quotes."));
         assert!(help.contains("  sim\n") && is_simulated(&address("sim?seed=3").unwrap()));
     }
 

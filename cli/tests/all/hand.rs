@@ -317,6 +317,8 @@ fn what_else_touches_disturbances_and_quality_are_told_where_they_are_asked_for(
 
     // Gravity in columns says the same; without limits there is no end of what squeezes.
     let columns = asked.replace("gravity_m_per_s2 = [0.0, -10.0, 0.0]", "gravity_columns = \"g\"");
+    // As often as there are samples: each is looked at.
+    let columns = columns.replace("every_s = 0.015", "every_s = 0.01");
     folder.write("columns.toml", &format!("{}{columns}", soft.replace("greatest_normal_N = 10.0\n", "")));
     folder.succeed(&[
         "analyze",
@@ -328,6 +330,7 @@ fn what_else_touches_disturbances_and_quality_are_told_where_they_are_asked_for(
         "--overwrite",
     ]);
     let columns = Contacts::parse(&folder.read("columns.csv"));
+    assert_eq!(columns.words("closure"), ["yes", "yes", ""]);
     assert_eq!(columns.numbers("other_fy_N")[..2], at("other_fy_N")[..2]);
     assert_eq!(columns.words("reach_more"), ["inf", "inf", ""]);
     // A twisted push: torque along the line over force.

@@ -62,6 +62,7 @@ fn messages_that_are_damaged_are_counted_apart() {
     fs::write(folder.path("damaged.mcap"), &damaged).unwrap();
     let said = info("damaged.mcap");
     assert!(said.contains("3 messages are not what their definition says"), "{said}");
+    assert!(said.contains("damaged.mcap: MCAP, 100 messages"), "{said}");
 }
 
 /// Runs a command whose standard input is this file.

@@ -159,7 +159,8 @@ fn outlines_are_drawn_where_contacts_are() {
             .filter_map(|word| word.parse().ok())
             .collect();
         let corners: Vec<(f64, f64)> = numbers.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
-        assert_eq!(corners, dots(&map), "{drawn}");
+        // The same map without it, since what reads the dots knows no closed path.
+        assert_eq!(corners, dots(&draw("test", &projection, &contacts, &[])), "{drawn}");
     }
 }
 
