@@ -158,6 +158,9 @@ mod tests {
             let error = AtiCalibration::from_xml(&broken).unwrap_err().to_string();
             assert!(names.iter().all(|name| error.contains(name)), "{error}");
         }
+        let flat =
+            AtiCalibration::from_xml(&NEW.replace("scale=\"2\"", "scale=\"0\"")).unwrap_err().to_string();
+        assert!(flat.contains("must be positive"), "{flat}");
         assert!(matches!(AtiCalibration::from_xml("<FTSensor"), Err(AtiError::NotXml(_))));
         // Something else, though all that is asked for stands in it.
         let other = NEW.replace("FTSensor", "Sensor");

@@ -218,6 +218,17 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_weight_of_zero_leaves_a_sample_out_and_one_below_is_refused() {
+        let (x, y) = (random(5, 8, 2), random(6, 8, 1));
+        let (mut with, mut without) = (Triangular::new(2, 1), Triangular::new(2, 1));
+        push_all(&mut with, &x, &y);
+        push_all(&mut without, &x, &y);
+        assert!(with.push_weighted(&[1e6, -1e6], &[1e9], 0.0) && with.refused() == 0);
+        assert!(!with.push_weighted(&[1.0, 1.0], &[1.0], -1.0) && with.refused() == 1);
+        assert_eq!(with.factors().coefficients().unwrap(), without.factors().coefficients().unwrap());
+    }
+
     proptest! {
         /// Against nalgebra's QR of all rows at once, and against the definition of the residual.
         #[test]

@@ -148,6 +148,21 @@ fn a_curved_sensor_creeps_as_a_straight_one() {
 }
 
 #[test]
+fn a_gauge_that_never_changes_spoils_nothing() {
+    let random = &mut Pcg64Mcg::seed_from_u64(65);
+    let mut session = session(random, &[SLOW], 12, 0.5, 1e-4);
+    let whole = fit(&session.table, false).unwrap().creep;
+    session.table.signals.column_mut(5).fill(0.7);
+    let found = fit(&session.table, false).unwrap().creep;
+    assert_eq!(found.times_s.len(), 1);
+    assert!((found.times_s[0] / whole.times_s[0] - 1.0).abs() < 0.05, "{found:?} {whole:?}");
+    for gauge in 0..5 {
+        assert!((found.shares[0][gauge] - whole.shares[0][gauge]).abs() < 2e-3, "{found:?} {whole:?}");
+    }
+    assert!(found.shares[0][5].abs() < 1e-9, "{found:?}");
+}
+
+#[test]
 fn what_tells_nothing_of_creep_is_refused() {
     let random = &mut Pcg64Mcg::seed_from_u64(64);
     let good = session(random, &[SLOW], 4, 1.0, 1e-4).table;

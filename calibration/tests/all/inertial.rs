@@ -195,6 +195,13 @@ fn mistakes_are_named() {
     assert!(told(&too_much, "the mass may be off by 5 %"), "{:?}", too_much.warnings);
     let right = fit_inertial(&samples, &options()).unwrap();
     assert!(!told(&right, "accelerometer"), "{:?}", right.warnings);
+    // A fifth of the force that is left is bad, and so is a mass that is known to a tenth, each by itself.
+    assert_ne!(right.verdict(), Verdict::Bad);
+    let unsure = InertialFit { mass_deviation: 0.11 * right.body.mass, ..right.clone() };
+    assert_eq!(unsure.verdict(), Verdict::Bad);
+    let much_left = InertialFit { left: right.load * 0.21, ..right.clone() };
+    assert!(much_left.mass_deviation < 0.1 * right.body.mass);
+    assert_eq!(much_left.verdict(), Verdict::Bad);
     // Axes that are not as said leave much.
     let turned = InertialOptions { unit: InertialUnit::at_the_origin(), ..options() };
     match fit_inertial(&samples, &turned) {
