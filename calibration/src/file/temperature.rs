@@ -175,6 +175,11 @@ mod tests {
             drift.at_reference(&[1.0; 6], &[0.5; 6], 90.0),
             drift.at_reference(&[1.0; 6], &[0.5; 6], 40.0)
         );
+        // A gain that is gone tells nothing, nor does one turned round.
+        for (lost, told) in [(-0.0625, true), (-0.125, false), (-0.25, false)] {
+            let drift = Temperature { gain_drift: vec![lost; 6], ..drift.clone() };
+            assert_eq!(drift.at_reference(&[1.0; 6], &[0.5; 6], 28.0).is_some(), told, "{lost}");
+        }
         assert!(crate::file::AtiCalibration::from_calibration(&file).is_err());
         let mut plain = file;
         plain.temperature = None;

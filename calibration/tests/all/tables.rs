@@ -4,7 +4,7 @@
 use fingertip_calibration::Axis;
 use fingertip_calibration::calibrate;
 use fingertip_calibration::file::{CalibrationFile, SignalUnit};
-use fingertip_calibration::loads::LoadTable;
+use fingertip_calibration::loads::{LoadError, LoadTable};
 use fingertip_calibration::model::{Curvature, Direction, Method, Options, StreamedFit};
 use fingertip_calibration::nalgebra::{DMatrix, DVector};
 use rand::SeedableRng as _;
@@ -361,6 +361,20 @@ fn merged_sessions_keep_what_all_of_them_say() {
         assert_eq!(some.weights.unwrap().iter().sum::<f64>(), 9.0);
     }
     assert_eq!(LoadTable::merged(&[plain.clone(), plain]).unwrap().weights, None);
+}
+
+/// Sessions with other axes or of another sensor are named for what does not match.
+#[test]
+fn sessions_that_do_not_match_are_not_merged() {
+    let plain = forces(&DMatrix::identity(3, 3), &DMatrix::identity(3, 4));
+    let error = |other: LoadTable| LoadTable::merged(&[plain.clone(), other]).unwrap_err();
+    let mut axes = plain.axes.clone();
+    axes.swap(0, 1);
+    let turned = error(LoadTable { axes, ..plain.clone() });
+    assert!(matches!(turned, LoadError::WrongLength { field: "axes", .. }), "{turned}");
+    let narrow = error(forces(&DMatrix::identity(3, 3), &DMatrix::identity(3, 3)));
+    assert!(matches!(narrow, LoadError::WrongLength { field: "signals", found: 3, expected: 4 }), "{narrow}");
+    assert_eq!(LoadTable::merged(&[]).unwrap_err(), LoadError::Empty { what: "sessions" });
 }
 
 /// A weight of zero leaves a sample out; a negative one is none.

@@ -187,6 +187,6 @@ fn a_calibration_adds_the_weight_to_the_loads() {
     let said = folder.succeed(&["check", "cal.toml", "bare.csv"]);
     assert!(said.contains("GOOD"), "{said}");
     // Without its weight they contradict each other.
-    folder.succeed(&[&calibrate[..], &["--overwrite"]].concat());
-    folder.fail(1, &["check", "cal.toml", "bare.csv"]);
+    let error = folder.fail(1, &[&calibrate[..], &["--overwrite"]].concat());
+    assert!(error.contains("the calibration cal.toml is bad"), "{error}");
 }
