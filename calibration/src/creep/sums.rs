@@ -114,3 +114,34 @@ fn pseudo_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let inverse = eigenvalues.map(|value| if value > least { value.recip() } else { 0.0 });
     &eigenvectors * DMatrix::from_diagonal(&inverse) * eigenvectors.transpose()
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::Sums;
+
+    #[test]
+    fn sums_of_parts_are_those_of_the_whole() {
+        let matrix = |columns: usize, phase: usize| {
+            DMatrix::from_fn(12, columns, |i, j| {
+                ((((i + 12 * j) * 7919 + phase) as f64).sin() * 43_758.5).fract()
+            })
+        };
+        let (x, signals, averages) = (matrix(2, 1), matrix(3, 20), [matrix(3, 50)]);
+        let of = |first: usize, count: usize| {
+            let rows = |matrix: &DMatrix<f64>| matrix.rows(first, count).into_owned();
+            Sums::of(&rows(&x), &rows(&signals), &[rows(&averages[0])])
+        };
+        let shares = |sums: &Sums| -> Vec<f64> {
+            sums.shares().unwrap().iter().flat_map(|found| [found.shares[0], found.left]).collect()
+        };
+        let (whole, first, second) = (of(0, 12), of(0, 5), of(5, 7));
+        for (found, expected) in [(whole.without(&first), &second), (first.with(&second), &whole)] {
+            let pairs = shares(&found).into_iter().zip(shares(expected));
+            pairs.for_each(|(found, expected)| {
+                assert!((found - expected).abs() < 1e-12, "{found} {expected}")
+            });
+        }
+    }
+}

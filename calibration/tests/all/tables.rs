@@ -363,6 +363,24 @@ fn merged_sessions_keep_what_all_of_them_say() {
     assert_eq!(LoadTable::merged(&[plain.clone(), plain]).unwrap().weights, None);
 }
 
+/// A reading at the end of its range says that the load was more: it is told, and not fitted.
+#[test]
+fn saturated_readings_are_left_out_of_a_fit() {
+    let loads = DMatrix::from_fn(12, 3, |i, j| ((((i + 12 * j) * 7919) as f64).sin() * 43_758.5).fract());
+    let whole = forces(
+        &loads,
+        &(&loads * DMatrix::from_fn(3, 3, |i, j| if i == j { 1.0 } else { 0.2 * (i as f64 - 1.0) })),
+    );
+    let mut clipped = whole.clone();
+    clipped.signals[(3, 1)] = 4.0;
+    let options = Options { range: Some([-4.0, 4.0]), ..Options::default() };
+    let (found, expected) = (calibrate(&clipped, &options).unwrap(), calibrate(&whole, &options).unwrap());
+    assert_eq!((found.report.samples, expected.report.samples), (11, 12));
+    assert!(found.report.excluded[0].reason.starts_with("gauge 2 saturated: reading 4"), "{}", found.report);
+    let off = found.model.fit.coefficients - expected.model.fit.coefficients;
+    assert!(off.amax() < 1e-12, "{off}");
+}
+
 /// Sessions with other axes or of another sensor are named for what does not match.
 #[test]
 fn sessions_that_do_not_match_are_not_merged() {
