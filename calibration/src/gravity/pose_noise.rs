@@ -1,6 +1,6 @@
 //! How noisy the six components of a wrench are, by what a fit to poses leaves, and how sure that makes the fit.
 
-use nalgebra::{DMatrix, DVector, Matrix6, SVector, SymmetricEigen, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, SymmetricEigen, Vector6};
 
 use super::products::{Derivatives, Products};
 use super::quadratic::{Symmetric, variance_of_form};
@@ -60,8 +60,7 @@ impl PoseNoise {
         let (own, carried) = (by.taken_up(), by.slopes.between_those_around(&by.moves));
         let mean = |covariance: &Matrix6<f64>| {
             let twice = own * covariance;
-            let carried = carried * SVector::<f64, 36>::from_column_slice(covariance.as_slice());
-            covariance * count - twice - twice.transpose() + Matrix6::from_column_slice(carried.as_slice())
+            covariance * count - twice - twice.transpose() + carried(covariance)
         };
         let freedom = own.diagonal().map(|own| (count - own).max(f64::MIN_POSITIVE));
         let unbiased = Symmetric::matrix_of(mean)
@@ -72,7 +71,7 @@ impl PoseNoise {
         let covariance = positive(&found, &products, &freedom);
         let in_these_units = |besides: Besides| {
             let changes: Vec<_> = besides.changes.iter().map(|by| in_units(by, &units)).collect();
-            (Products::of(&changes, &changes), besides.variance)
+            (Products::of(&changes), besides.variance)
         };
         let besides = besides.into_iter().map(in_these_units).collect();
         Self { covariance, unbiased, freedom, by, besides, units }

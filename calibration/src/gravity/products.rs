@@ -11,8 +11,15 @@ pub(super) struct Products {
 }
 
 impl Products {
-    pub(super) fn of(left: &[DMatrix<f64>], right: &[DMatrix<f64>]) -> Self {
-        let by_entry = side_by_side(left) * side_by_side(right).transpose();
+    /// Of the derivatives of each pose with themselves.
+    pub(super) fn of(derivatives: &[DMatrix<f64>]) -> Self {
+        let all = side_by_side(derivatives);
+        Self::of_columns(&all, &all)
+    }
+
+    /// Of two matrices with a column a pose.
+    fn of_columns(left: &DMatrix<f64>, right: &DMatrix<f64>) -> Self {
+        let by_entry = left * right.transpose();
         let parameters = by_entry.nrows() / 6;
         let mut all = OMatrix::<f64, Const<36>, Dyn>::zeros(parameters * parameters);
         for (place, mut column) in all.column_iter_mut().enumerate() {
@@ -28,7 +35,7 @@ impl Products {
 
     /// `Σ_i A_iᵀ F B_i`.
     pub(super) fn around(&self, form: &Matrix6<f64>) -> DMatrix<f64> {
-        let form = SVector::<f64, 36>::from_column_slice(form.as_slice());
+        let form = entries(form);
         let all = self.all.column_iter().map(|column| column.dot(&form));
         DMatrix::from_iterator(self.parameters, self.parameters, all)
     }
@@ -40,10 +47,19 @@ impl Products {
         Matrix6::from_column_slice(sum.as_slice())
     }
 
-    /// `Σ_i A_i (Σ_j C_jᵀ F E_j) B_iᵀ` of the products of others, C and E, as a map from the entries of F to its own.
-    pub(super) fn between_those_around(&self, others: &Self) -> SMatrix<f64, 36, 36> {
-        &self.all * others.all.transpose()
+    /// `Σ_i A_i (Σ_j C_jᵀ F E_j) B_iᵀ` of the products of others, C and E, as a function of F.
+    pub(super) fn between_those_around(
+        &self,
+        others: &Self,
+    ) -> impl Fn(&Matrix6<f64>) -> Matrix6<f64> + use<> {
+        let map: SMatrix<f64, 36, 36> = &self.all * others.all.transpose();
+        move |form| Matrix6::from_column_slice((map * entries(form)).as_slice())
     }
+}
+
+/// All entries, column by column.
+fn entries(form: &Matrix6<f64>) -> SVector<f64, 36> {
+    SVector::from_column_slice(form.as_slice())
 }
 
 /// One column a pose, of all entries of its derivatives.
@@ -66,11 +82,12 @@ pub(super) struct Derivatives {
 
 impl Derivatives {
     pub(super) fn of(slopes: &[DMatrix<f64>], moves: &[DMatrix<f64>]) -> Self {
+        let (d, p) = (side_by_side(slopes), side_by_side(moves));
         Self {
             poses: moves.len() as f64,
-            slopes: Products::of(slopes, slopes),
-            moves: Products::of(moves, moves),
-            across: Products::of(moves, slopes),
+            slopes: Products::of_columns(&d, &d),
+            moves: Products::of_columns(&p, &p),
+            across: Products::of_columns(&p, &d),
         }
     }
 
