@@ -1,17 +1,16 @@
 //! Which code is compiled for the tests, by its attributes.
 
 use syn::punctuated::Punctuated;
-use syn::{Attribute, Meta, Token};
+use syn::{Attribute, Expr, ExprLit, Lit, Meta, Token};
 
 use crate::workspace::OFF;
 
 /// Whether the code below these attributes is for tests, or behind a feature that is off when they run.
 pub fn is_left_out(attributes: &[Attribute]) -> bool {
+    let fails = |attribute: &Attribute| attribute.parse_args().is_ok_and(|when| holds(&when) == Some(false));
     attributes.iter().any(|attribute| {
-        let is_test =
-            attribute.path().is_ident("test") || (attribute.path().is_ident("cfg") && names_test(attribute));
-        is_test
-            || (attribute.path().is_ident("cfg") && attribute.parse_args().is_ok_and(|when| !holds(&when)))
+        attribute.path().is_ident("test")
+            || attribute.path().is_ident("cfg") && (names_test(attribute) || fails(attribute))
     })
 }
 
@@ -20,38 +19,29 @@ fn names_test(attribute: &Attribute) -> bool {
     words.split(|c: char| !c.is_alphanumeric()).any(|word| word == "test")
 }
 
-/// Whether a condition of `cfg` holds; what is not known of the machine is taken to hold, and its opposite too.
-fn holds(when: &Meta) -> bool {
-    let inner = |when: &Meta| -> Vec<Meta> {
-        let list = when
-            .require_list()
-            .and_then(|list| list.parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated));
-        list.map(|list| list.into_iter().collect()).unwrap_or_default()
-    };
-    let is_of_features = |when: &Meta| !features(when).is_empty();
-    match when.path() {
-        path if path.is_ident("feature") => {
-            features(when).iter().all(|feature| !OFF.contains(&feature.as_str()))
-        }
-        path if path.is_ident("all") => inner(when).iter().all(holds),
-        path if path.is_ident("any") => inner(when).iter().any(holds),
-        path if path.is_ident("not") => inner(when).iter().all(|when| !(is_of_features(when) && holds(when))),
-        _ => true,
-    }
-}
-
-/// The features that a condition names.
-fn features(when: &Meta) -> Vec<String> {
+/// Whether a condition of `cfg` holds; `None` of what is not known, such as the machine.
+fn holds(when: &Meta) -> Option<bool> {
     match when {
         Meta::NameValue(pair) if pair.path.is_ident("feature") => match &pair.value {
-            syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(name), .. }) => vec![name.value()],
-            _ => Vec::new(),
+            Expr::Lit(ExprLit { lit: Lit::Str(name), .. }) => Some(!OFF.contains(&name.value().as_str())),
+            _ => None,
         },
-        Meta::List(list) => list
-            .parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated)
-            .map(|inner| inner.iter().flat_map(features).collect())
-            .unwrap_or_default(),
-        _ => Vec::new(),
+        Meta::List(list) => {
+            let inner = list.parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated).ok()?;
+            let inner: Vec<Option<bool>> = inner.iter().map(holds).collect();
+            // One of these decides; without one, what is not known leaves it open.
+            let by = |decides: bool| {
+                let is_open = !inner.contains(&Some(decides)) && inner.contains(&None);
+                (!is_open).then_some(inner.contains(&Some(decides)) == decides)
+            };
+            match list.path.get_ident()?.to_string().as_str() {
+                "all" => by(false),
+                "any" => by(true),
+                "not" => inner.first()?.map(|holds| !holds),
+                _ => None,
+            }
+        }
+        _ => None,
     }
 }
 
@@ -91,6 +81,7 @@ mod tests {
             "#[cfg(any(feature = \"ros2\", feature = \"std\"))]",
             "#[cfg(unix)]",
             "#[cfg(not(windows))]",
+            "#[cfg(not(any(windows, feature = \"ros2\")))]",
         ] {
             assert!(!left_out(attribute), "{attribute}");
         }

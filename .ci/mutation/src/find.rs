@@ -1,8 +1,8 @@
 //! Finds every place of a file where a fault can be put.
 //!
 //! Faults are swapped operators, turned signs, turned or removed conditions, `min` for `max`, and removed
-//! statements. Left alone are tests, what is behind a feature that is off, constants and `const fn` (a switch cannot be asked there), types,
-//! patterns, macros, and the writing of texts (`Display`, `Debug`).
+//! statements. Left alone are tests, what is behind a feature that is off, constants and `const fn` (a switch
+//! cannot be asked there), types, patterns, macros, and the writing of texts (`Display`, `Debug`).
 
 use std::ops::Range;
 
