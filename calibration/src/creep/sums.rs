@@ -118,20 +118,18 @@ fn pseudo_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use nalgebra::DMatrix;
+    use rand::SeedableRng as _;
 
     use super::Sums;
+    use crate::fit::testing::gaussian_matrix;
 
     #[test]
     fn sums_of_parts_are_those_of_the_whole() {
-        let matrix = |columns: usize, phase: usize| {
-            DMatrix::from_fn(12, columns, |i, j| {
-                ((((i + 12 * j) * 7919 + phase) as f64).sin() * 43_758.5).fract()
-            })
-        };
-        let (x, signals, averages) = (matrix(2, 1), matrix(3, 20), [matrix(3, 50)]);
+        let random = &mut rand_pcg::Pcg64Mcg::seed_from_u64(1);
+        let [x, signals, averages] = [2, 3, 3].map(|columns| gaussian_matrix(random, 12, columns));
         let of = |first: usize, count: usize| {
             let rows = |matrix: &DMatrix<f64>| matrix.rows(first, count).into_owned();
-            Sums::of(&rows(&x), &rows(&signals), &[rows(&averages[0])])
+            Sums::of(&rows(&x), &rows(&signals), &[rows(&averages)])
         };
         let shares = |sums: &Sums| -> Vec<f64> {
             sums.shares().unwrap().iter().flat_map(|found| [found.shares[0], found.left]).collect()

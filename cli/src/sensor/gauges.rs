@@ -134,34 +134,18 @@ mod tests {
     use fingertip_recordings::mcap::{McapWriter, RecordedSignals};
     use nalgebra::DMatrix;
 
+    use super::super::testing::Folder;
     use super::super::{Feed, Next};
     use super::{Calibrating, GaugesOf, SignalUnit, calibrated};
     use crate::calibrated::Calibration;
 
-    /// A folder that is removed with the test.
-    struct Folder(PathBuf);
-
-    impl Folder {
-        fn new(name: &str) -> Self {
-            let path = std::env::temp_dir().join(format!("fingertip-gauges-{name}-{}", std::process::id()));
-            fs::create_dir_all(&path).unwrap();
-            Self(path)
-        }
-
-        /// A sensor whose gauges are the components of the wrench times two, with a zero of 0.5 V.
-        fn calibration(&self) -> PathBuf {
-            let path = self.0.join("cal.toml");
-            let matrix = DMatrix::from_diagonal_element(6, 6, 2.0);
-            let file = CalibrationFile::new(matrix, vec![1.0; 6], vec![0.5; 6], SignalUnit::Volt).unwrap();
-            CalibrationFile { range: Some([-10.0, 10.0]), ..file }.write(&path).unwrap();
-            path
-        }
-    }
-
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            let _ = fs::remove_dir_all(&self.0);
-        }
+    /// A sensor whose gauges are the components of the wrench times two, with a zero of 0.5 V.
+    fn calibration(folder: &Folder) -> PathBuf {
+        let path = folder.0.join("cal.toml");
+        let matrix = DMatrix::from_diagonal_element(6, 6, 2.0);
+        let file = CalibrationFile::new(matrix, vec![1.0; 6], vec![0.5; 6], SignalUnit::Volt).unwrap();
+        CalibrationFile { range: Some([-10.0, 10.0]), ..file }.write(&path).unwrap();
+        path
     }
 
     /// Time, gauges (all the same but the first) and dummy gauge: 0.25 s of rest, during which and after which all
@@ -193,8 +177,8 @@ mod tests {
 
     #[test]
     fn gauges_of_a_recording_become_wrenches_by_their_calibration() {
-        let folder = Folder::new("recording");
-        let calibration = folder.calibration();
+        let folder = Folder::new("gauges-recording");
+        let calibration = calibration(&folder);
         let mut text = "t_s,v1_V,v2_V,v3_V,v4_V,v5_V,v6_V,dummy_V\n".to_owned();
         let mut writer = McapWriter::new(Cursor::new(Vec::new())).unwrap();
         let topics =
@@ -237,8 +221,8 @@ mod tests {
 
     #[test]
     fn the_simulated_fingertip_is_played_through_a_calibration() {
-        let folder = Folder::new("simulated");
-        let calibration = folder.calibration();
+        let folder = Folder::new("gauges-simulated");
+        let calibration = calibration(&folder);
         let mut notes = Vec::new();
         let calibration = Calibration::read(&calibration).unwrap();
         let how = Calibrating { calibration: &calibration, rest: None, celsius: None };

@@ -10,6 +10,8 @@ mod replay;
 mod ros2;
 mod simulated;
 mod stream;
+#[cfg(test)]
+mod testing;
 
 use fingertip::wrench::Wrench;
 use fingertip_drivers::{Source, SourceError, SourceErrorKind};

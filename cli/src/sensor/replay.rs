@@ -36,13 +36,13 @@ mod tests {
     use fingertip_recordings::mcap::McapWriter;
     use nalgebra::Vector6;
 
+    use super::super::testing::Folder;
     use super::super::{Losses, Next};
     use super::open;
 
     #[test]
     fn recordings_of_either_kind_are_played() {
-        let folder = std::env::temp_dir().join(format!("fingertip-replay-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = Folder::new("replay");
         let wrench: Wrench<f64> = Wrench::from_components(&Vector6::new(1.0, 2.0, -3.0, 0.0, 0.25, 0.0));
         let mut writer = McapWriter::new(Cursor::new(Vec::new())).unwrap();
         let topic = writer.wrenches("/ft", "tip").unwrap();
@@ -50,7 +50,7 @@ mod tests {
         let messages = writer.finish().unwrap().into_inner();
         let rows = b"t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0.5,1,2,-3,0,0.25,0\n".to_vec();
         for (name, contents) in [("a.csv", rows), ("a.mcap", messages)] {
-            let path = folder.join(name);
+            let path = folder.0.join(name);
             std::fs::write(&path, contents).unwrap();
             let mut feed = open(&path, "", 0.0).unwrap();
             let Next::Reading(reading) = feed.next().unwrap() else { panic!("{name}: no reading") };
@@ -59,6 +59,5 @@ mod tests {
             let Losses { lost, late, .. } = feed.losses();
             assert_eq!((lost, late), (Some(0), 0), "{name}");
         }
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

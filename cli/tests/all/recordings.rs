@@ -5,6 +5,7 @@ use std::process::{Output, Stdio};
 
 use fingertip::wrench::Wrench;
 use fingertip_recordings::mcap::{Compression, McapWriter};
+use fingertip_test_support::mcap;
 use nalgebra::Vector6;
 
 use crate::common::{Contacts, Folder};
@@ -122,7 +123,7 @@ fn a_cut_recording_is_read_and_recovered() {
     );
     // Behind the header, which comes behind eight bytes: a message of a channel that nothing describes.
     let header = 17 + usize::try_from(u64::from_le_bytes(whole[9..17].try_into().unwrap())).unwrap();
-    let message = [&[5, 22, 0, 0, 0, 0, 0, 0, 0][..], &[99; 22]].concat();
+    let message = mcap::message(99, 0, &[]);
     fs::write(folder.path("strange.mcap"), [&whole[..header], &message, &whole[header..]].concat()).unwrap();
     let said = folder.succeed(&["recover", "strange.mcap", "known.mcap"]);
     let lost: Vec<&str> = said.lines().filter(|line| line.starts_with("Lost: ")).collect();

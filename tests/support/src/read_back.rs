@@ -35,7 +35,7 @@ fn tags<'a>(svg: &'a str, name: &str) -> Vec<&'a str> {
     svg.match_indices(&format!("<{name} ")).map(|(at, _)| &svg[at..]).collect()
 }
 
-/// The pieces of a path: `M`, `L` and, behind a single point, `h0`.
+/// The pieces of a path: `M`, `L`, behind the last point of one that is closed `Z`, and behind a single point `h0`.
 fn pieces(d: &str) -> Vec<Vec<(f64, f64)>> {
     let point = |text: &str| {
         let (x, y) = text.split_once(' ').unwrap();
@@ -45,7 +45,8 @@ fn pieces(d: &str) -> Vec<Vec<(f64, f64)>> {
         .skip(1)
         // Behind `m` a shape is drawn about the point.
         .map(|piece| {
-            piece.split('m').next().unwrap().trim_end_matches("h0").split('L').map(point).collect::<Vec<_>>()
+            let corners = piece.split('m').next().unwrap().trim_end_matches("h0").trim_end_matches('Z');
+            corners.split('L').map(point).collect::<Vec<_>>()
         })
         .inspect(|piece| {
             assert!(piece.len() > 1 || d.contains("h0") || d.contains('m'), "a point that is not seen: {d}")

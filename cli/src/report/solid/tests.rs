@@ -173,8 +173,7 @@ fn picture(reach: Option<f64>) -> ([Vec<Path>; 2], usize) {
         .collect();
     let solid = Solid::of(scene.surface(), scene.projection(), &contacts).unwrap();
     assert_eq!(solid.is_open, reach.is_some());
-    // Facets are closed.
-    let all = paths(&super::picture::draw(&solid).replace("Z\"", "\""));
+    let all = paths(&super::picture::draw(&solid));
     let dots =
         all.iter().filter(|path| path.class.starts_with("dots")).map(|path| path.pieces.concat().len());
     let dots = dots.sum();
@@ -217,7 +216,7 @@ fn the_picture_is_isometric_and_lit_from_the_left_above() {
         let contacts: Vec<MapPoint> = (0..count).map(|i| contact(&scene, point(i), 1.0)).collect();
         super::picture::draw(&Solid::of(scene.surface(), scene.projection(), &contacts).unwrap())
     };
-    let svg = drawn(1).replace("Z\"", "\"");
+    let svg = drawn(1);
     let all = paths(&svg);
     let middle = (170.0, 150.0);
     for (axis, name, (right, up)) in
